@@ -11,11 +11,22 @@ from core.pipeline.command_output import (
     table_listing,
     verdict_listing,
 )
-from core.pipeline.derive import derive, look_ahead_table
+from core.pipeline.derive import derive, look_ahead_table, remedy_for_gouge
 from core.pipeline.jobs import jobs
 from core.pipeline.plot import block_scene, svg_of
-from core.program.model import ArcSegment, CutterComp, Direction, LineSegment, Number, ProgramParameters, Relative
-from core.units import Unit
+from core.pipeline.unit_question import unit_question
+from core.program.model import (
+    ArcSegment,
+    CutterComp,
+    Direction,
+    LineSegment,
+    Number,
+    ProgramParameters,
+    Relative,
+    Tool,
+    Unread,
+)
+from core.units import Unit, sentence
 from tests.core.pipeline.parts import MID_SIDE_SQUARE, NOTCH, OVER_RUN_SQUARE, block, program
 
 BLENDS = ProgramParameters(blend_offset=Number(0.125), blend_overlap=Number(0.125))
@@ -153,3 +164,87 @@ def test_a_relative_center_is_given_as_an_absolute_position():
     ]
     assert (values["x_center"]["value"], values["y_center"]["value"]) == pytest.approx((2.0, 1.0))
     assert (values["radius"]["value"], values["sweep"]["value"]) == pytest.approx((1.0, 180.0))
+
+
+def test_a_table_of_a_block_without_compensation_says_so():
+    part = program(block(NOTCH, CutterComp.ON))
+    (on,) = derive(part).blocks
+    assert list(table_listing(on, look_ahead_table(on, part), Unit.IN))[1:] == [
+        "  There is no contour to compensate yet, or CUTTER COMP. is ON."
+    ]
+
+
+def test_a_table_without_a_clean_value_says_so_and_has_its_notes_last():
+    part = program(block(HOOK, CutterComp.LEFT))
+    (gouging,) = derive(part).blocks
+    table = look_ahead_table(gouging, part)
+    assert table is not None
+    lines = list(table_listing(gouging, table, Unit.IN))
+    assert lines[22] == "  No value is clean."
+    assert lines[23:] == [f"  {sentence(note, Unit.IN)}" for note in table.notes]
+    document = table_document(gouging, table, Unit.IN)
+    assert document["recommended"] is None
+    assert not any(value["clean"] for value in document["values"])
+
+
+HOOK = ((1, 0), (2, 0), (2, 1), (0.9, 1), (0.9, 0.3), (0, 0.3), (0, 0), (1, 0))
+
+
+def test_a_gouge_that_no_look_ahead_mends_names_the_largest_tool():
+    part = program(block(HOOK, CutterComp.LEFT))
+    (gouging,) = derive(part).blocks
+    remedy = remedy_for_gouge(gouging, part)
+    assert (remedy.code, remedy.field) == ("TOOL_FITS", "tool")
+    assert remedy.text == "Block 1: the tool is too big; the largest that does not gouge: {value}."
+    for diameter, gouges in ((remedy.value / 25.4, False), (remedy.value / 25.4 + 0.001, True)):
+        other = replace(part, tools=(Tool(1, diameter=Number(diameter)),))
+        assert ("GOUGE" in [finding.code for finding in derive(other).blocks[0].findings]) is gouges
+    whole = program(block(MID_SIDE_SQUARE, CutterComp.LEFT))
+    assert remedy_for_gouge(derive(whole).blocks[0], whole) is None
+
+
+def test_a_value_that_cannot_be_read_is_listed_with_its_text():
+    typed = block(((1.0, 0.0), (2.0, 0.0)), CutterComp.LEFT)
+    unread = LineSegment(x_end=Unread("2..5", "why"), y_end=Number(1.0))
+    part = program(replace(typed, segments=(*typed.segments, unread)))
+    (only,) = path_document(derive(part))["blocks"]
+    assert only["segments"][-1]["x_end"] == {"value": None, "tag": "ERR", "text": "2..5"}
+    assert [move["segment"] for move in only["moves"]] == [1]
+
+
+def test_a_run_is_listed_with_all_its_solutions():
+    """From 0 0 a line at 30 degrees, then one of length 40 to 70 10: two lines of such lengths meet."""
+    first, second = LineSegment(angle=Number(30.0)), LineSegment(Number(70.0), Number(10.0), length=Number(40.0))
+    typed = block(((0.0, 0.0), (0.0, 0.0)), CutterComp.LEFT)
+    (only,) = path_document(derive(program(replace(typed, segments=(first, second)))))["blocks"]
+    assert [segment["run"] for segment in only["segments"]] == [[1, 2], [1, 2]]
+    (run,) = only["runs"]
+    assert (run["first"], run["last"], run["solution"], run["code"]) == (1, 2, None, "PICK_SOLUTION")
+    for solution in run["solutions"]:
+        start, end = (segment["length"] for segment in solution["segments"])
+        assert end == pytest.approx(40.0)
+        assert solution["total"] == pytest.approx(start + end)
+    # the distance of 70 10 from the first line is 26.34, and 40^2 = 26.34^2 + 30.104^2
+    along = [solution["segments"][0]["length"] for solution in run["solutions"]]
+    assert along == pytest.approx([65.6218 - 30.1044, 65.6218 + 30.1044], abs=1e-3)
+
+
+@pytest.mark.parametrize(
+    ("corner", "lengths"),
+    [
+        ((0.2, 0.2), (0.2, 0.2)),
+        ((0.24, 0.3), (0.5, 0.24)),
+        ((0.9, 3.0), (0.5, 0.9)),
+        ((1.1, 3.0), None),
+    ],
+)
+def test_the_unit_is_asked_for_small_parts_and_large_tools(corner, lengths):
+    """The tool is 0.5 across: half of the smaller side at 1 inch; no part is meant to be smaller than a quarter."""
+    x, y = corner
+    question = unit_question(derive(program(block(((0, 0), (x, 0), (x, y), (0, y), (0, 0)), CutterComp.RIGHT))))
+    assert (None if question is None else tuple(value / 25.4 for value in question.lengths)) == (
+        None if lengths is None else pytest.approx(lengths)
+    )
+    if question is not None:
+        assert question.text.endswith("The program is in INCH.")
+    assert unit_question(derive(program(block(((0, 0), (x, 0), (x, y)), CutterComp.RIGHT)))) is None

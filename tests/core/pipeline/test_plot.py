@@ -10,8 +10,8 @@ from app.documents.programs import example
 from core.draw.characters import Mode
 from core.draw.scene import Style
 from core.draw.view import TALL, View
-from core.pipeline.derive import derive
-from core.pipeline.plot import LOUPE, Subject, block_scene, svg_of
+from core.pipeline.derive import derive, look_ahead_table
+from core.pipeline.plot import LOUPE, Subject, block_scene, nearest_segment, svg_of
 from core.program.model import ArcSegment, CutterComp, Direction, LineSegment, Number, PathChoice
 from core.units import Unit
 from tests.core.pipeline.parts import MID_SIDE_SQUARE, NOTCH, OVER_RUN_SQUARE, block, program
@@ -136,3 +136,34 @@ def test_the_part_of_an_arc_past_the_corner_is_drawn_as_a_lead():
     assert (first.points / 25.4).tolist() == [pytest.approx((2, 3)), pytest.approx((crossing, 3))]
     assert (last.points / 25.4).tolist() == [pytest.approx((crossing, 3)), pytest.approx((3, 1))]
     assert last.turns.tolist() == [-1]
+
+
+def test_the_segment_nearest_to_a_point_is_named():
+    square = derived(program(block(MID_SIDE_SQUARE, CutterComp.LEFT)))
+    for segment, at in enumerate(((1.5, 0.1), (1.9, 1.0), (1.0, 2.5), (0.1, 1.0), (0.5, -0.1)), 1):
+        assert nearest_segment(square, (at[0] * 25.4, at[1] * 25.4)) == segment
+    assert nearest_segment(derived(program(block(NOTCH[:1], CutterComp.LEFT))), (0.0, 0.0)) is None
+
+
+def test_gouged_and_uncut_regions_and_the_cross_are_in_the_picture():
+    """The notch, 0.3 wide and deep, is cut by a tool of 0.5, or left uncut with a larger look-ahead."""
+    for lookahead, style in ((1, Style.GOUGE_AREA), (3, Style.UNCUT_AREA)):
+        notch = derived(program(block(NOTCH, CutterComp.LEFT, lookahead=Number(lookahead))))
+        drawn = Subject(notch, Unit.IN, near=(2.15 * 25.4, 0.0)).drawn(60, 20, Mode.BRAILLE)
+        styles = {style for row in drawn.picture.styles for style in row}
+        assert styles & {Style.GOUGE_AREA, Style.UNCUT_AREA} == {style}
+    crossed = Subject(notch, Unit.IN, cross=(2.15 * 25.4, -20.0)).drawn(60, 20, Mode.BRAILLE)
+    assert crossed.picture != Subject(notch, Unit.IN).drawn(60, 20, Mode.BRAILLE).picture
+
+
+def test_a_row_of_the_look_ahead_table_is_drawn_with_its_own_path():
+    part = program(block(NOTCH, CutterComp.LEFT, lookahead=Number(1)))
+    notch = derived(part)
+    row = look_ahead_table(notch, part).rows[2]
+    for scene, path in (
+        (block_scene(notch, None, Unit.IN, row), row.compensated.path),
+        (block_scene(notch, None, Unit.IN), notch.paths.loops[0].path),
+    ):
+        (drawn,) = [layer for layer in scene.layers if layer.style is Style.PATH]
+        (only,) = drawn.parts
+        assert only.points.tolist() == path.points.tolist()
