@@ -22,7 +22,7 @@ from core.importing.contour import (
     started_at_corner,
     started_at_side,
 )
-from core.importing.contours import frame_notes
+from core.importing.contours import frame_notes, with_joined
 from core.importing.listing import matching, rows_of
 from core.units import Unit
 from tests.core.importing.drawings import (
@@ -214,6 +214,17 @@ def test_two_chosen_open_contours_at_a_branch_are_joined() -> None:
     assert joined is not None
     assert joined.length == pytest.approx(flat.length + other.length)
     assert len(joined.pieces) == 2
+
+
+def test_contours_joined_in_the_list_are_numbered_again() -> None:
+    """Three lines meet in (10, 0); the list has them by length, then from the lower left."""
+    drawing = listed(dxf(line((0, 0), (10, 0)), line((10, 0), (30, 0)), line((10, 0), (10, 5)), line((50, 0), (90, 0))))
+    assert [contour.length for contour in drawing.contours] == [40.0, 20.0, 10.0, 5.0]
+    joined = with_joined(drawing, 2, 3)
+    assert joined is not None
+    assert [(contour.number, contour.length) for contour in joined.contours] == [(1, 40.0), (2, 30.0), (3, 5.0)]
+    assert [branch.contours for branch in joined.branches] == [(3,)]
+    assert with_joined(drawing, 1, 2) is None
 
 
 def test_duplicate_and_overlapping_arcs_are_joined() -> None:

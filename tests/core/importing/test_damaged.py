@@ -8,7 +8,7 @@ import pytest
 
 from core.importing.drawing import DrawingError
 from core.importing.dxf import read_dxf
-from tests.core.importing.drawings import dxf, line, made, square
+from tests.core.importing.drawings import dxf, ellipse, line, made, square
 from tests.core.importing.mutants import (
     TIME_LIMIT,
     full_document,
@@ -62,6 +62,22 @@ def test_an_entity_without_a_kind_is_reported() -> None:
         taken = read_dxf(faulty, "test.dxf", damaged=True)
         assert taken.entities == 4
         assert any("it is not read" in note for note in taken.notes)
+
+
+def test_an_entity_whose_group_codes_cannot_be_right_is_named_and_left_out_on_demand() -> None:
+    cases: list[tuple[list[tuple[int, object]], str]] = [
+        ([(0, "LINE"), (8, "0"), (10, 0), (20, 0), (11, 5)], "has group code 21 missing"),
+        ([*line((0, 0), (1, 1)), (10, 5)], "has group code 10 2 times"),
+        ([*ellipse((0, 0), (5, 0), 0.5), (41, 0)], "has group code 41 2 times"),
+        ([(0, "LWPOLYLINE"), (90, 3), (10, 0), (20, 0), (10, 5), (20, 5)], "names 3 points and has 2"),
+    ]
+    for faulty, fault in cases:
+        data, where = dxf(line((0, 0), (5, 5)), faulty), f"The {faulty[0][1]} at line 35"
+        with pytest.raises(DrawingError) as error:
+            read_dxf(data, "test.dxf")
+        assert error.value.text == f"This file is damaged: {where} {fault}."
+        taken = read_dxf(data, "test.dxf", damaged=True)
+        assert (taken.entities, taken.notes[-1]) == (1, f"{where} cannot be read: it {fault}.")
 
 
 def test_a_section_within_a_section_is_reported_as_damage() -> None:

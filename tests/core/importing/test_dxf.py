@@ -14,11 +14,24 @@ from core.importing.contours import ContourList, ImportOptions, contours_of
 from core.importing.drawing import Drawing, DrawingError, DrawingUnit
 from core.importing.dxf import read_dxf
 from core.importing.listing import sentences, unit_question
-from core.importing.segments import DoesNotFitError, block_of
+from core.importing.segments import DoesNotFitError, block_of, comment
 from core.program.model import Program
 from core.tolerance import JOINED
 from core.units import Unit
-from tests.core.importing.drawings import MADE, arc, binary, block, circle, dxf, line, listed, made, polyline, square
+from tests.core.importing.drawings import (
+    MADE,
+    arc,
+    binary,
+    block,
+    circle,
+    dxf,
+    ellipse,
+    line,
+    listed,
+    made,
+    polyline,
+    square,
+)
 
 ACCEPTED = [case for case in MADE if "refused" not in case]
 
@@ -110,6 +123,27 @@ def test_insunits_gives_the_unit_or_none(code: int | None, unit: str | None) -> 
 def test_the_unit_question_shows_the_size_in_both_units() -> None:
     text = unit_question(read(made("d04-nounits.dxf")))
     assert text == "The drawing names no unit. 40 x 30: as IN 40.0000 x 30.0000, as MM 40.000 x 30.000"
+
+
+def test_the_unit_question_measures_curves() -> None:
+    """An ellipse of half axes 5 and 2.5."""
+    text = unit_question(read(dxf(ellipse((1, 2), (5, 0), 0.5), units=None)))
+    assert text.endswith("10 x 5: as IN 10.0000 x 5.0000, as MM 10.000 x 5.000")
+
+
+def test_what_is_in_paper_space_or_invisible_is_counted() -> None:
+    hidden, paper = [*line((0, 0), (7, 5)), (60, 1)], [*line((0, 0), (5, 5)), (67, 1)]
+    drawing = read(dxf(line((0, 0), (5, 5)), paper, hidden, hidden))
+    assert (drawing.entities, drawing.skipped, drawing.hidden) == (1, {"LINE in paper space": 1}, {"0": 2})
+    shown = list(sentences(listed(dxf(line((0, 0), (5, 5)), paper, hidden, hidden)), Unit.MM))
+    assert shown[:2] == ["skipped: 1 LINE in paper space.", "frozen, off or invisible, not taken: 2 on 0."]
+
+
+def test_the_comment_names_the_file_and_its_layers_once() -> None:
+    contours = [replace(contour, layers=("CUT", "HOLES\n")) for contour in listed(dxf(*square(0, 0, 9))).contours]
+    assert comment("a.dxf", [*contours, *contours]) == "# from a.dxf, layers CUT, HOLES?"
+    assert comment("a.dxf", [replace(contours[0], layers=("CUT",))]) == "# from a.dxf, layer CUT"
+    assert comment("a.dxf", []) == "# from a.dxf"
 
 
 def test_an_unsupported_unit_is_named() -> None:
