@@ -175,6 +175,24 @@ BAD = [
      case_of(line(tangent=True, x_end=5, y_end=5))),
     ("TANGENT_PLACE", "TANGENT cannot follow a BLEND ARC, which stands at a corner",
      case_of(line(x_end=5, y_end=5), {"kind": "BLEND ARC", "radius": 1}, line(tangent=True, x_end=9, y_end=0))),
+    ("INSIDE", "The point 3.000 4.000 is only 5.000 away: no line passes it at 9.000.",
+     case_of(line(point_x=3, point_y=4, point_dist=9), line(x_end=50, y_end=90))),
+    ("INSIDE", "The point 3.000 4.000 is only 5.000 away: no line passes it at 9.000.",
+     case_of(line(angle=90), line(point_x=3, point_y=4, point_dist=9, x_end=0, y_end=0), start=(-50, 0))),
+    ("CONTRADICTION", "The point 20.000 5.000 is 5.000 from segment 1, not 4.000: correct or blank it.",
+     case_of(line(x_end=40, y_end=0, point_x=20, point_y=5, point_dist=4))),
+    ("CONTRADICTION", "XY ANGLE is I30, but I0.000 by its other fields: correct or blank one of them.",
+     case_of(line(x_end=40, y_end=0), line(angle_inc=30, x_end=60, y_end=0))),
+    ("CONTRADICTION", "Segment 2 is not tangent to the one before: the corner turns by 2.862 degrees. Blank TANGENT",
+     case_of(line(x_end=40, y_end=0), line(tangent=True, x_end=60, y_end=1))),
+    ("CONTRADICTION", "XY ANGLE is 10.000, but 0.000 by PARALLEL TO: correct or blank one of them.",
+     case_of(line(x_end=40, y_end=0), line(parallel=1, angle=10, length=5))),
+    ("CONTRADICTION", "RADIUS is 20.000, but 21.000 by segments 1 and 2: correct or blank one of them.",
+     case_of(line(angle=0), ccw(x_center=50, y_center=20, radius=20, x_end=50, y_end=41))),
+    ("RADII_DIFFER", "The arc's radius is 40.000 at its start and 41.000 at its end: correct the end or the center.",
+     case_of(line(x_end=40, y_end=0), ccw(x_center=0, y_center=0, radius=40, x_end=0, y_end=41))),
+    ("PARALLEL_TO", "PARALLEL TO 2: segment 2 is no LINE. Enter the number of an earlier LINE.",
+     case_of(line(x_end=5, y_end=5), ccw(radius=5, x_end=9, y_end=9), line(parallel=2, x_end=20, y_end=0))),
     ("PARALLEL_TO", "PARALLEL TO 2 is not before segment 2: enter the number of an earlier LINE.",
      case_of(line(x_end=5, y_end=5), line(parallel=2, x_end=9, y_end=0))),
 ]  # fmt: skip
@@ -464,6 +482,27 @@ def test_the_solution_field_lists_the_shortest_answer_first() -> None:
     assert block.segments[0].end == pytest.approx((15.925097, 32.099227), abs=1e-6)
     ((first, *_),) = untaken_pieces(block, 3)
     assert first.end == pytest.approx((18.413365, 12.193081), abs=1e-6)
+
+
+def test_the_two_arcs_of_a_single_segment_are_solutions_too() -> None:
+    """Radius 5 from 0 0 to 6 0, counterclockwise: the center is 4 above or below the chord."""
+    program = program_of(case_of(ccw(radius=5, x_end=6, y_end=0)))
+    block = solve_block(program.blocks[0], program)
+    asked = solution_at(block, 1)
+    assert asked is not None
+    assert (asked.number, asked.label, untaken_pieces(block, 1)) == (1, "? of 2", ())
+    assert [solution_at(block, number) for number in (0, 2)] == [None, None]
+    for index in (0, 1):
+        taken = take_solution(program, FormPlace(1, 1), index)
+        assert isinstance(taken, Program)
+        block = solve_block(taken.blocks[0], taken)
+        shown = solution_at(block, 1)
+        assert shown is not None
+        assert (shown.label, block.segments[0].sharp) == (f"{index + 1} of 2", block.segments[0].choices[index])
+        ((other,),) = untaken_pieces(block, 1)
+        assert other == block.segments[0].choices[1 - index]
+    centers = [choice.center for choice in block.segments[0].choices if isinstance(choice, Arc)]
+    assert sorted(centers) == [pytest.approx((3.0, -4.0)), pytest.approx((3.0, 4.0))]
 
 
 def test_the_picked_solution_survives_a_new_number_but_no_new_field() -> None:

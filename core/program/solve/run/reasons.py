@@ -231,13 +231,13 @@ def no_tangent(
     element, elements = branch.run.elements[index], branch.run.elements
     (a, r, _), (b, s, _) = first, second
     if (r == 0.0) is not (s == 0.0):
-        point = a if r == 0.0 else b
-        arc = _touched(branch, index, b if r == 0.0 else a)
+        point, center = (a, b) if r == 0.0 else (b, a)
+        arc = _touched(branch, index, center)
         if arc is not None:
             text = f"The point {{0}} {{1}} lies inside the circle of segment {arc.number}: no line from it is tangent."
             return _fault("INSIDE", text, element, None, *point)
         text = "The point {0} {1} is only {2} away: no line passes it at {3}."
-        return _fault("INSIDE", text, element, "point_dist", *point, dist(a, b), abs(s - r))
+        return _fault("INSIDE", text, element, "point_dist", *center, dist(a, b), abs(s - r))
     before = elements[index - 1].number if index else element.number
     after = elements[index + 1].number if index + 1 < len(elements) else element.number
     text = f"Segments {before} and {after} overlap: no line runs from one to the other with these DIRECTIONS."
