@@ -61,3 +61,17 @@ def test_blend_moves_are_part_of_what_is_judged():
 def test_a_contour_without_a_path_is_clean_at_no_value():
     hole = CuttingSetup(lines((0, 0), (1, 0), (1, 1), (0, 1), (0, 0)), Side.LEFT, 3.0, True, 0.0, 0.0)
     assert not any(row.clean for row in judge_lookaheads(hole).rows)
+
+
+def test_the_effect_of_a_clean_value_names_what_stays_or_is_deleted():
+    """The notch stays uncut; of one too shallow to be uncut only the steps are deleted."""
+    text, lengths = judge_lookaheads(SETUP).row(3).effect
+    assert text == "does not gouge but leaves {0} uncut"
+    assert lengths == pytest.approx((0.9,))
+    step = lines((0, 0), (2, 0), (2, -1e-5), (2.3, -1e-5), (2.3, 0), (5, 0))
+    assert judge_lookaheads(replace(SETUP, surface=step)).row(2).effect == (
+        "does not gouge but deletes segments 2 and 4",
+        (),
+    )
+    wall = lines((0, 0), (2, 0), (2, 3))
+    assert judge_lookaheads(replace(SETUP, surface=wall, side=Side.RIGHT)).row(3).effect == ("is clean", ())

@@ -32,6 +32,23 @@ def test_pan_moves_by_parts_of_the_window():
     assert view.center == (40.0, -10.0)
 
 
+@pytest.mark.parametrize(
+    ("point", "center"),
+    [
+        ((30.0, 90.0), (30.0, 90.0)),
+        ((-50.0, 200.0), (50 / 7, 100.0 - 50 / 7)),
+        ((100.0, 0.0), (100.0 - 50 / 7, 50 / 7)),
+    ],
+)
+def test_a_view_over_a_point_shows_little_beyond_the_part(point, center):
+    """The window is 20 wide and high; a seventh of it, 20 / 7, may lie outside of the part."""
+    view = View((1.0, 2.0), 1.0).over(point, (0.0, 0.0, 100.0, 100.0), 20, 10)
+    assert view.center == pytest.approx(center)
+    assert view.scale == 1.0
+    # a part that the window shows whole need not be in its middle
+    assert view.over((3.0, 4.0), (0.0, 0.0, 10.0, 4.0), 40, 40).center == (3.0, 4.0)
+
+
 def test_zoom_keeps_the_center_and_stays_within_limits():
     view = View((3.0, 4.0), 2.0)
     assert view.zoom(4.0) == View((3.0, 4.0), 0.5)

@@ -193,6 +193,16 @@ def test_a_note_does_not_repeat_its_code():
     assert "(NOTE COOLANT FLOOD is not written for fanuc:a" in text
 
 
+def test_deleted_segments_make_a_warning_for_smaller_tools():
+    chamfer = polyline((0, 0), (2, 0), (2.05, 0.05), (2.05, 2), (0, 2))
+    compensated = compensate(chamfer, Side.LEFT, 0.25 * INCH, 2, closed=False, blend=0.125 * INCH)
+    assert len(compensated.deleted)
+    notes = [posted("linuxcnc", made).notes for made in (replace(cut(), compensated=compensated), cut())]
+    (note,) = [note for note in notes[0] if note.code == "LEFT_OUT"]
+    assert (note.severity, note.lengths) == (Severity.WARNING, (0.5 * INCH,))
+    assert "LEFT_OUT" not in [note.code for note in notes[1]]
+
+
 def test_the_note_on_coolant_names_the_control_as_the_list_of_controls_does():
     (note,) = posted("threeblock", jobs=(square(coolant=Coolant.MIST),)).notes
     assert note.text == "COOLANT MIST is not written for three-block; switch it on at the control."

@@ -8,6 +8,7 @@ from core.geometry.piece import Turn
 from core.output.nc import Posted, Refusal, center_path_program, comments
 from core.output.objections import OVERRIDE
 from core.output.passes import CenterPath, Cutter, Floor, Job, passes
+from core.program.model import Coolant
 from core.units import Unit, located_sentence
 from tests.core.output.jobs import INCH, arc, floors, job, path_of, polyline
 
@@ -53,6 +54,22 @@ def test_a_whole_program_is_written_in_inches():
         "M5",
         "M30",
     ]
+
+
+@pytest.mark.parametrize(
+    ("coolants", "words"),
+    [
+        ((Coolant.OFF, Coolant.OFF), []),
+        ((Coolant.FLOOD, Coolant.FLOOD), ["M8", "M9"]),
+        ((Coolant.MIST, Coolant.FLOOD), ["M7", "M9", "M8", "M9"]),
+        ((Coolant.FLOOD, Coolant.OFF), ["M8", "M9"]),
+    ],
+)
+def test_coolant_is_switched_where_it_changes_and_off_at_the_end(coolants: tuple[Coolant, ...], words: list[str]):
+    jobs = [job(SLOT, block=number, coolant=coolant) for number, coolant in enumerate(coolants, 1)]
+    result = center_path_program(jobs, Unit.IN, name="SLOT")
+    assert isinstance(result, Posted)
+    assert [line for line in result.text.splitlines() if line in ("M7", "M8", "M9")] == words
 
 
 def head(part: str) -> list[str]:

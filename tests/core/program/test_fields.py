@@ -28,6 +28,7 @@ from core.program.model import (
     Number,
     PartSetup,
     ProgramParameters,
+    Relative,
     Tool,
     Unread,
 )
@@ -222,6 +223,18 @@ def test_a_number_out_of_range_is_kept_as_typed(form: Form, name: str, text: str
     one = field_of(form, name)
     assert read_typed(text, one, Unit.IN) == Unread(text, why)
     assert text_refusal(text, one, Unit.IN) == unread_reason(text, one, Unit.IN) == why
+
+
+@pytest.mark.parametrize("text", ["I2.5", "i 2.5", "2.5I", "2 1/2 i"])
+def test_an_i_before_or_after_a_number_counts_from_the_start_of_the_segment(text: str) -> None:
+    end, start = field_of(Form.LINE, "x_end"), field_of(Form.START, "x_start")
+    assert read_typed(text, end, Unit.IN) == Relative(2.5)
+    assert isinstance(read_typed(text, start, Unit.IN), Unread)
+
+
+@pytest.mark.parametrize("text", ["I", "in", "2.5in", "inI"])
+def test_an_i_that_is_part_of_a_word_is_not_relative(text: str) -> None:
+    assert not isinstance(read_typed(text, field_of(Form.LINE, "x_end"), Unit.IN), Relative)
 
 
 def test_a_text_that_the_field_would_now_accept_must_be_typed_again() -> None:
