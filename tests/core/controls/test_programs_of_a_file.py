@@ -4,7 +4,10 @@ from __future__ import annotations
 
 import pytest
 
+from core.controls import registry
+from core.controls.control_tools import ToolTable
 from core.finding import Severity
+from core.units import Unit
 from tests.core.controls.hand import findings_of, lines_and_ends, ran
 
 SUB = "O5101 (PASS)\nG1 X7. F100.\nM99\n"
@@ -128,3 +131,31 @@ def test_every_form_of_a_program_head_is_accepted(head: str) -> None:
 
 def test_haas_refuses_a_program_name_without_o() -> None:
     assert ran("%\n<PART-1>\nG21 G1 X1. F100.\nM30\n%\n", "haas:a").stopped_at == 2
+
+
+FILES: dict[int | str, tuple[str, bytes]] = {
+    2: ("O2.nc", b"O2\nG1 X5.\nM99\n"),
+    3: ("O3.nc", b"%\nO3\nX6.\nG33 X1.\nM99\n%\n"),
+    "a": ("a.ngc", b"o<a> sub\nG1 X5.\no<b> call\no<a> endsub\n"),
+    "b": ("b.ngc", b"o<b> sub\nX6.\nG33 X1.\no<b> endsub\n"),
+    "c": ("c.ngc", b"o<d> sub\no<d> endsub\n"),
+}
+
+
+@pytest.mark.parametrize(
+    ("control", "calls", "ends", "stop", "text"),
+    [
+        ("fanuc:a", "M98 P2\nM98 P3", [(2, 1.0), (3, 5.0), (4, 6.0)], 4, "O3.nc line 4: cutcomp does not"),
+        ("linuxcnc", "o<a> call", [(2, 1.0), (3, 5.0), (3, 6.0)], 3, "b.ngc line 3: cutcomp does not support G33"),
+        ("linuxcnc", "o<c> call", [(2, 1.0)], 3, "c.ngc is called here and has no subprogram O<c>."),
+        ("linuxcnc", "o<e> call", [(2, 1.0)], 3, "There is no subprogram O<e> in this file, and no file e.ngc"),
+    ],
+)
+def test_moves_and_findings_of_a_called_file_count_for_the_line_that_calls_it(
+    control: str, calls: str, ends: list[tuple[int, float]], stop: int, text: str
+) -> None:
+    run = registry.run(f"G21 F9.\nG0 X1.\n{calls}\nM30\n".encode(), control, ToolTable(), Unit.MM, FILES.get)
+    assert not isinstance(run, registry.UnknownControl)
+    assert [(move.line, move.point[0]) for move in run.moves if move.line] == ends
+    assert (run.stopped_at, run.findings[-1].line) == (stop, stop)
+    assert run.findings[-1].text.startswith(text)
