@@ -440,3 +440,23 @@ def test_a_place_in_another_plane_names_the_axes_of_the_plane() -> None:
     cut = [finding for finding in judged_findings(judge_run(ran(program, "fanuc:a", t1=12.0))) if finding.at]
     assert cut
     assert all("at Z {x} X {y}" in finding.text for finding in cut)
+
+
+@pytest.mark.parametrize(
+    ("side", "corners", "line", "words"),
+    [
+        ("G42", ((0, 15), (20, 0), (20, 20), (0, 20), (0, 0)), 8, "The contour begins on this line; {value} behind"),
+        ("G41", ((0, 0), (0, 20), (20, 20), (20, 0), (0, 15)), 5, "The contour ends on this line; {value} before"),
+    ],
+)
+def test_a_contour_whose_end_is_in_the_middle_of_a_wall_may_be_mistyped(
+    side: str, corners: tuple[tuple[int, int], ...], line: int, words: str
+) -> None:
+    """The wall at X0 runs 15 past the point where the other end meets it."""
+    (_, y), *further = corners
+    walls = "".join(f"X{x} Y{y}\n" for x, y in further)
+    text = f"G21 G90 F9\nT1 M6\nG0 X-30 Y{y}\n{side} D1 G1 X0 Y{y}\n{walls}G40 X-30\nM2\n"
+    (finding,) = [one for one in judged_findings(judge_run(ran(text, "linuxcnc", t1=2.0))) if one.code == "OVER_RUN"]
+    assert (finding.severity, finding.line) == (Severity.WARNING, line)
+    assert finding.value == pytest.approx(15.0)
+    assert finding.text.startswith(words)
