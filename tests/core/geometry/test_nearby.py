@@ -15,7 +15,8 @@ from core.geometry.nearby import (
     nearest_pairs,
     sorted_pairs,
 )
-from core.geometry.path import Path
+from core.geometry.path import EMPTY, Path
+from core.geometry.piece import Line
 from core.geometry.piece_arrays import PieceArrays, at, piece_arrays
 
 Floats = NDArray[np.float64]
@@ -107,6 +108,13 @@ def test_nearest_pairs_contain_the_piece_nearest_to_every_place(n: int, m: int, 
         places = at(first, np.full(len(first), part))
         nearest = distance(second, np.repeat(places[:, None], len(second), axis=1)).argmin(axis=1)
         assert set(enumerate(nearest.tolist())) <= near
+
+
+def test_a_path_without_pieces_has_no_pairs() -> None:
+    wall, nothing = piece_arrays(Path.from_pieces([Line((0.0, 0.0), (9.0, 0.0))])), piece_arrays(EMPTY)
+    for first, second in ((wall, nothing), (nothing, wall), (nothing, nothing)):
+        assert [len(rows) for rows in nearest_pairs(first, second, 1e-9)] == [0, 0]
+    assert list(near_pairs_within(np.empty((4, 0)), 1.0)) == []
 
 
 def test_nearest_pairs_of_short_chords_within_one_radius_are_few() -> None:
