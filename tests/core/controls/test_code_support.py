@@ -56,6 +56,29 @@ def test_controls_named_for_a_code_have_it(code: int) -> None:
         assert code in dialect.codes, name
 
 
+@pytest.mark.parametrize(
+    ("control", "codes", "names"),
+    [
+        ("threeblock", "G7 G8 G43.1 G43.2 G61.1 G90.1 G91.1 G92.2 G92.3", "LinuxCNC has it."),
+        ("threeblock", "G41.1 G42.1 G59.1 G59.2 G59.3", "LinuxCNC and RosettaCNC have it."),
+        ("threeblock", "G92.1", "LinuxCNC and Allen-Bradley 9/Series have it."),
+        ("threeblock", "G39", "Allen-Bradley 9/Series and Fanuc have it."),
+        ("threeblock", "G39.1", "Allen-Bradley 9/Series has it."),
+        ("threeblock", "G50 G69", "RosettaCNC, Fanuc and Haas have it."),
+        (
+            "threeblock",
+            "G10 G52 G53 G61 G64 G96 G97 G98",
+            "LinuxCNC, Allen-Bradley 9/Series, Fanuc and Haas have it.",
+        ),
+        ("rosettacnc", "G44 G45", "three-block has it."),
+        ("rosettacnc", "G70 G71", "three-block and Allen-Bradley 9/Series have it."),
+    ],
+)
+def test_the_alarm_for_a_code_names_the_controls_that_have_it(control: str, codes: str, names: str) -> None:
+    for code in codes.split():
+        assert alarm(ran(f"G20 F9.\n{code}\nM2\n", control)).endswith(f"write the control's code. {names}"), code
+
+
 @pytest.mark.parametrize("control", NOT_FOLLOWED)
 def test_codes_that_are_not_followed_stop_the_run(control: str) -> None:
     for code in NOT_FOLLOWED[control].split():

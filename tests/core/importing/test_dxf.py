@@ -106,6 +106,20 @@ def test_refusals_name_the_reason() -> None:
         assert refused.value.text == text
 
 
+def test_a_drawing_without_contours_says_what_it_has() -> None:
+    text, hidden = [(0, "TEXT"), (8, "0"), (10, 0), (20, 0), (40, 1), (1, "A")], [*line((0, 0), (7, 5)), (60, 1)]
+    for entities, words in (
+        ([], "in model space."),
+        ([text, text], "in model space: 2 TEXT were skipped."),
+        ([hidden], "in model space: 1 entity is frozen, off or invisible."),
+        ([text, hidden, hidden], "in model space: 1 TEXT was skipped; 2 entities are frozen, off or invisible."),
+    ):
+        with pytest.raises(DrawingError) as refused:
+            read(dxf(*entities))
+        assert refused.value.code == "NO_GEOMETRY"
+        assert refused.value.text.endswith(words)
+
+
 def test_the_circle_of_3000_lines_becomes_one_arc() -> None:
     contour = fitted_contour(listed(made("d18-3000.dxf")).contours[0], 0.005)
     assert fit_sentence(contour, Unit.IN) == "3000 lines -> 1 ARC, off by 0.0000"
