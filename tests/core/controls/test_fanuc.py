@@ -1019,7 +1019,7 @@ def test_an_unsupported_code_of_the_control_stops_the_run(code: str) -> None:
     run = ran(f"{HEAD}X1.\n{code} X5. I1. J1. R1.\nX9.\nM30")
     stop = run.findings[-1]
     assert (stop.code, stop.severity, stop.line) == ("BEYOND", Severity.ERROR, 3)
-    assert f"does not support {code}," in stop.text
+    assert f"does not support {code}." in stop.text
     assert flat(run)[-1].end[0] == 1.0
 
 
