@@ -22,7 +22,7 @@ from textual import on
 from textual.app import ComposeResult
 from textual.binding import Binding, BindingType
 from textual.containers import Horizontal, Vertical
-from textual.events import DescendantFocus, Resize
+from textual.events import DescendantFocus, Resize, ScreenResume
 from textual.reactive import Reactive, var
 from textual.screen import ModalScreen, Screen
 from textual.widget import Widget
@@ -158,6 +158,11 @@ class BaseScreen(Screen[None]):
 
     def show_signs(self) -> None:
         """Redraw everything else that has signs after the character set has changed."""
+
+    @on(ScreenResume)
+    def _keep_styles(self, event: ScreenResume) -> None:
+        """Keep the styles: every widget got them when it was mounted."""
+        event.refresh_styles = False
 
     def on_screen_resume(self) -> None:
         """Catch up with changes made while another screen was in front."""
