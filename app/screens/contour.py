@@ -355,16 +355,13 @@ class ContourScreen(FormScreen):
         if is_open or not isinstance(target, Widget):
             self._focus_left_field()
         else:
-            self.call_after_refresh(self._into_panel, target)
+            self._show_lists(self.host.shown)
+            self.set_focus(target)
 
     def _focus_left_field(self) -> None:
         """Focus the field that the cursor left to go to a list, or SEGMENT if another segment was chosen there."""
         place, name = self._left_field or (None, SEGMENT)
         self.focus_field(name if place == self.current_session.place else SEGMENT)
-
-    def _into_panel(self, target: Widget) -> None:
-        self._show_lists(self.host.shown)
-        self.set_focus(target)
 
     def action_restore(self) -> None:
         """Restore the old value; from a list, go back to the form and the drawing."""
