@@ -81,6 +81,12 @@ def _patient(monkeypatch: pytest.MonkeyPatch) -> None:
 
 
 @pytest.fixture(autouse=True)
+def _painted_at_rest(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Let a screen be painted when a test waits for it, and not several times on the way there."""
+    monkeypatch.setattr("textual.screen.UPDATE_PERIOD", 1.0)
+
+
+@pytest.fixture(autouse=True)
 def _quick_keys(monkeypatch: pytest.MonkeyPatch) -> None:
     """Let a test delete as soon as another screen has closed."""
     monkeypatch.setattr("app.screens.base.TWO_PRESSES", 0.0)

@@ -266,7 +266,8 @@ async def test_a_program_opened_with_look_cannot_be_edited(folder):
     theirs.open(folder / "part.toml")
     async with at_work(folder) as user:
         assert isinstance(user.app.screen, Question)
-        await user.press("l", "tab", "'2")
+        await user.press("l")
+        await user.press("tab", "'2")
         assert user.app.shown is not user.session
         await user.press("enter")
         assert "SAVE AS" in user.prompt

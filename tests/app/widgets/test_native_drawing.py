@@ -82,7 +82,8 @@ async def test_a_hidden_drawing_is_drawn_only_once_shown(pocket):
         await settled(app)
         assert drawing.drawn is None
         drawing.remove_class("hidden")
-        await pilot.pause()
+        while drawing.drawn is None:
+            await pilot.pause()
         assert "".join(await settled(app)).strip()
 
 
