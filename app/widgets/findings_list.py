@@ -95,6 +95,8 @@ class FindingsList(OptionRows):
         return Content.assemble(title, "\n", Content.styled(self._wrapped(f"    {more}"), "$c-label"))
 
     def _wrapped(self, text: str) -> str:
-        """Return a text wrapped to the list's width, with all lines but the first indented."""
+        """Return a text wrapped to the list's width, with all lines but the first indented; as it is while hidden."""
+        if not self._width:
+            return text
         indent = " " * 4
         return fill(text, max(self._width, MIN_WIDTH), subsequent_indent=indent, drop_whitespace=True)
