@@ -171,6 +171,13 @@ class BaseScreen(Screen[None]):
         self.show_work(self.host.longest_work)
         if self.stands:
             self.query_one(Status).read_machine()
+        self.call_after_refresh(self._place_cursor)
+
+    def _place_cursor(self) -> None:
+        """Move the terminal's own hidden cursor to the field: input methods and magnifiers follow it."""
+        if isinstance(self.focused, Input):
+            self.app.cursor_position = self.focused.cursor_screen_offset
+            self.focused.refresh()
 
     def refuse_delete(self) -> bool:
         """Refuse to delete, and say so, if the key may be the second press of one for a screen that has closed."""

@@ -101,6 +101,19 @@ def test_letters_and_the_cursor_are_visible(tmp_path: Path, more: dict[str, str]
         assert (cursor.bg, cursor.reverse) != (label.bg, label.reverse)
 
 
+def test_the_hidden_cursor_is_on_the_field_after_a_screen_change(tmp_path: Path) -> None:
+    with on_example(tmp_path) as terminal:
+        assert terminal.screen.cursor.y == 1
+        terminal.send(ESC + b"[17~")
+        terminal.until("TOOL SETUP")
+        terminal.read(quiet=0.7)
+        assert (terminal.screen.cursor.x, terminal.screen.cursor.y) == (3, 2)
+        terminal.send(ESC + b"[19~")
+        terminal.until("SEGMENT >")
+        terminal.read(quiet=0.7)
+        assert terminal.screen.cursor.y == 1
+
+
 def test_ctrl_q_asks_and_discarding_ends_with_status_0(tmp_path: Path) -> None:
     with on_example(tmp_path) as terminal:
         terminal.send(b"\t9\r\x11")
