@@ -6,7 +6,8 @@ begins; a segment's *floor* is the height that its Z START and Z END give it.
 Roughing comes first, with TOOL: at each depth all its runs from outside in, then one peck deeper, so that no run
 is ever deeper than one peck in stock that another run should have taken.  Without a finish tool, the run at full size
 is the last at each depth.  FINISH TOOL follows in one pass at full depth; it pecks only if it is smaller than TOOL,
-since corners are then still solid, or if it cuts a segment that no roughing run has cut.
+since corners are then still solid, if it is wider than the roughed strip, or if it cuts a segment that no roughing run
+has cut.
 
 PECK, for every run: feed down to the depth, mill the contour, rapid up to the retract clearance over Z START, rapid
 back to the plunge point, rapid down to the last depth there plus the peck clearance, feed one peck deeper.
@@ -275,8 +276,9 @@ def _stages(job: Job) -> Iterator[_Stage]:
     rough_levels = levels(job.z_start, job.z_bottom + stock, job.peck_depth)
     yield _Stage(job.cutter, rough_runs(job), rough_levels, stock, finishing=False)
     if job.finisher is not None:
-        pecks = job.peck_depth if job.finisher.diameter < job.cutter.diameter or meets_solid(job) else 0.0
-        fine = levels(job.z_start, job.z_bottom, pecks)
+        strip = job.cutter.diameter + (job.rough[0].offset if job.rough else 0.0)
+        roughed = job.cutter.diameter <= job.finisher.diameter <= strip and not meets_solid(job)
+        fine = levels(job.z_start, job.z_bottom, 0.0 if roughed else job.peck_depth)
         yield _Stage(job.finisher, job.finish, fine, 0.0, finishing=True)
 
 

@@ -157,6 +157,13 @@ def test_a_finish_tool_smaller_than_the_roughing_tool_pecks():
     assert [each[1] for each in summaries if each[3]] == [-0.1, -0.2, -0.25]
 
 
+@pytest.mark.parametrize(("max_offset", "levels_cut"), [(0.02, [-0.1, -0.2, -0.25]), (0.5, [-0.25])])
+def test_a_finish_tool_wider_than_the_roughed_strip_pecks(max_offset, levels_cut):
+    rough = (CenterPath(OUTER, offset=max_offset * INCH), CenterPath(OUTER, offset=0.02 * INCH))
+    summaries = [summary(each) for each in passes(with_finisher(1.0, rough=rough))]
+    assert [each[1] for each in summaries if each[3]] == levels_cut
+
+
 def test_both_tools_run_on_the_contour_without_compensation():
     work = job(SLOT, finisher=Cutter(2, 12.7), finish_tool=2, finish_z=0.05 * INCH, peck_depth=0.0)
     assert [summary(each) for each in passes(work)] == [(1, -0.2, 0.0, False), (2, -0.25, 0.0, True)]
