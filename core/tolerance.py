@@ -32,7 +32,7 @@ UNCUT: Final = 1.5e-7
 lie JOINED away from where its contour is typed."""
 
 INDEPENDENT: Final = 1e-3
-"""Do two conditions on a center determine it?  If the sine of the angle between them is smaller, the last digits of
+"""Do two conditions on a point determine it?  If the sine of the angle between them is smaller, the last digits of
 typed numbers decide where it is."""
 
 AGREES: Final = 2e-5

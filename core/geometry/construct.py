@@ -61,9 +61,13 @@ def polar(start: Point, angle: float, length: float) -> Point:
 def ray_to_coordinate(
     start: Point, angle: float, axis: int, value: float
 ) -> OnePoint | NotDetermined | OppositeDirection:
-    """Find where a ray reaches the coordinate `value`; `NotDetermined` if that coordinate is constant along the ray."""
+    """Find where a ray reaches the coordinate `value`; `NotDetermined` if that coordinate is constant along the ray.
+
+    It is also if only the rounding of the start and the angle makes it change.
+    """
     along = (cos(angle), sin(angle))
-    if abs(along[axis]) < SLIVER:
+    rounded = abs(along[axis]) < INDEPENDENT and abs(value - start[axis]) <= ARC_RADII
+    if rounded or abs(along[axis]) < SLIVER:
         return NotDetermined()
     travel = (value - start[axis]) / along[axis]
     if travel < 0.0:

@@ -414,6 +414,12 @@ def test_a_center_coordinate_along_the_radius_at_the_start_determines_nothing_if
     assert codes(result) == ["NOT_YET"]
 
 
+def test_an_end_coordinate_that_stays_along_the_line_determines_nothing_if_the_heading_is_rounded() -> None:
+    before = line(length=25.0, angle=40.0), line(x_end=19.1511, y_end=40.0), cw(tangent=True, radius=10.0, sweep=90.0)
+    assert codes(solved(case_of(*before, line(tangent=True, y_end=50.0001)))) == ["NOT_YET"]
+    assert codes(solved(case_of(before[0], line(angle=0.0001, y_end=16.07)))) == ["MISSING"]
+
+
 def test_a_full_circle_may_be_tangent() -> None:
     block = solved(case_of(line(x_end=50, y_end=0), ccw(tangent=True, x_end=50, y_end=0, x_center=50, y_center=10)))
     assert block.whole

@@ -19,7 +19,7 @@ from core.finding import Finding
 from core.geometry.oriented import Circle, Locus, OrientedLine, direction, line_through, meeting, normal, touch_point
 from core.geometry.piece import Point
 from core.program.solve.run.typed_run import Run
-from core.tolerance import JOINED
+from core.tolerance import ARC_RADII, INDEPENDENT, JOINED
 
 Numbers = list[float | None]
 
@@ -421,6 +421,18 @@ class Branch:
                     loci.append(moved)
         return loci
 
+    def _stays(self, index: int, coordinates: Numbers, axis: float) -> bool:
+        """True if a known line at a joint leaves a known coordinate as it is, but for the rounding of numbers."""
+        here = coordinates[index]
+        for element, other in ((index - 1, index - 1), (index, index + 1)):
+            line = self.line(element) if 0 <= element < len(self.run.elements) else None
+            value = None if line is None else coordinates[other]
+            if line is None or value is None or here is None:
+                continue
+            if abs(sin(line.heading - axis)) < INDEPENDENT and abs(value - here) <= ARC_RADII:
+                return True
+        return False
+
     def _tied_joints(self, index: int) -> Iterator[tuple[float, float, int]]:
         """Yield (dx, dy, joint): the joint itself, and each joint at a known vector from it."""
         yield 0.0, 0.0, index
@@ -441,9 +453,9 @@ class Branch:
 
     def _loci_at(self, index: int) -> Iterator[Locus]:
         x, y = self.x[index], self.y[index]
-        if x is not None:
+        if x is not None and not self._stays(index, self.x, pi / 2.0):
             yield line_through((x, 0.0), -pi / 2.0)
-        if y is not None:
+        if y is not None and not self._stays(index, self.y, 0.0):
             yield line_through((0.0, y), pi)
         elements = [element for element in (index - 1, index) if 0 <= element < len(self.run.elements)]
         for element in elements:
