@@ -290,9 +290,8 @@ class _Reader:
         count = max(insert.mcount, 1)
         if count * max(len(block), 1) > MAX_SHAPES:
             raise too_much("lines and curves", count * len(block), MAX_SHAPES)
-        self.skipped["ATTRIB"] += len(insert.attribs)
-        if not insert.attribs:
-            del self.skipped["ATTRIB"]
+        if insert.attribs:
+            self.skipped["ATTRIB"] += len(insert.attribs)
         inserts = insert.multi_insert() if count > 1 and rows * columns > 1 else (insert,)
         for single in inserts:
             transform = single.matrix44()

@@ -230,6 +230,24 @@ def test_an_insert_that_mirrors_and_stretches_a_circle_makes_an_ellipse() -> Non
     assert contour.size == pytest.approx((20.0, 10.0), abs=0.01)
 
 
+def test_texts_of_inserts_are_counted() -> None:
+    text = [
+        (0, "ATTRIB"),
+        (8, "0"),
+        (10, 0),
+        (20, 0),
+        (30, 0),
+        (40, 5),
+        (1, "M6"),
+        (2, "SIZE"),
+        (0, "SEQEND"),
+        (8, "0"),
+    ]
+    with_text = [*insert("B", (0, 0), (66, 1)), *text]
+    drawing = read(dxf(with_text, insert("B", (20, 0)), more=block("B", *square(0, 0, 10))))
+    assert drawing.skipped == {"ATTRIB": 1}
+
+
 def test_every_copy_of_an_insert_array_is_read() -> None:
     data = dxf(insert("B", (0, 0), (70, 3), (71, 2), (44, 20.0), (45, 20.0)), more=block("B", *square(0, 0, 10)))
     assert len(listed(data).contours) == 6
