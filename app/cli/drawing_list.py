@@ -5,8 +5,8 @@ from __future__ import annotations
 import argparse
 from dataclasses import replace
 
-from core.importing.contours import FIT, MAX_TOLERANCE, TOLERANCE, ContourList, ImportOptions, Progress, contours_of
-from core.importing.drawing import Drawing, DrawingError, DrawingUnit
+from core.importing.contours import FIT, MAX_TOLERANCE, TOLERANCE, ContourList, ImportOptions, contours_of
+from core.importing.drawing import Drawing, DrawingError, DrawingUnit, Progress
 from core.importing.dxf import read_dxf
 from core.importing.listing import unit_question
 from core.units import from_mm, to_mm

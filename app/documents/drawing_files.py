@@ -22,8 +22,8 @@ from typing import Final, Generic, TypeVar, cast
 
 from app.documents.files import TooLargeError, read_file, why
 from core.importing.contours import ContourList, ImportOptions, contours_of
-from core.importing.contours import Progress as ReportProgress
 from core.importing.drawing import MAX_BYTES, Drawing, DrawingError
+from core.importing.drawing import Progress as ReportProgress
 from core.importing.dxf import read_dxf
 from core.program.file.read import StoreError
 from core.units import Unit

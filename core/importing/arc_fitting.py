@@ -14,18 +14,14 @@ import numpy as np
 from numpy.typing import NDArray
 
 from core.geometry.piece import Arc, Line, Piece, Turn, point_of
+from core.importing.curves import MAX_RADIUS, Points
 
 CORNER: Final = radians(5.0)
 MIN_LINES: Final = 3
 """Fewest lines that an arc replaces."""
 
-MAX_RADIUS: Final = 100_000.0
-"""Largest radius in millimeters: a flatter arc becomes a line, or stays several lines."""
-
 ROUNDS: Final = 40
 """Most steps that narrow down the best arc between two points."""
-
-Points = NDArray[np.complex128]
 
 
 @dataclass(frozen=True, slots=True)

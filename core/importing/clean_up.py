@@ -19,7 +19,7 @@ from core.geometry.chords import chords_of
 from core.geometry.path import Path
 from core.geometry.piece import Arc, Line, Piece, Point, Turn
 from core.importing.nesting import CHORD_ERROR
-from core.importing.nodes import Nodes, exact_nodes, nodes_of
+from core.importing.nodes import KEY_DECIMALS, Nodes, exact_nodes, nodes_of
 
 MOST_SLACK: Final = 0.01
 """Largest distance in millimeters of equal or collinear pieces, even if TOLERANCE is larger."""
@@ -29,8 +29,6 @@ NO_LENGTH: Final = 1e-7
 
 ANGLE_CELL: Final = 0.002
 """Lines whose directions differ by more than this, in radians, are not collinear."""
-
-KEY_DECIMALS: Final = 6
 
 
 class LayeredPiece(NamedTuple):
@@ -122,16 +120,13 @@ def _without_tiny(items: list[LayeredPiece], tolerance: float) -> list[LayeredPi
     nodes = exact_nodes(pieces, tolerance)
     dropped = {row for row, (start, end) in zip(small, nodes.of_piece, strict=True) if start == end}
     for run in _runs(nodes):
-        ends = [point for member in run for point in _extent(items[small[member]].piece)]
-        width = max(x for x, _ in ends) - min(x for x, _ in ends)
-        height = max(y for _, y in ends) - min(y for _, y in ends)
-        if max(width, height) < tolerance:
+        run_pieces = [pieces[member] for member in run]
+        x, y = zip(
+            *(point for piece in run_pieces for point in (piece.start, piece.point_at(0.5), piece.end)), strict=True
+        )
+        if max(max(x) - min(x), max(y) - min(y)) < tolerance:
             dropped |= {small[member] for member in run}
     return [item for row, item in enumerate(items) if row not in dropped]
-
-
-def _extent(piece: Piece) -> tuple[Point, ...]:
-    return piece.start, piece.point_at(0.5), piece.end
 
 
 def _runs(nodes: Nodes) -> Iterator[list[int]]:
@@ -335,7 +330,9 @@ def _direction(piece: Piece) -> float:
 
 def _near_lines(items: Sequence[LayeredPiece], rows: list[int], slack: float) -> list[tuple[int, int]]:
     """Return pairs of nearly parallel lines whose boxes overlap in a frame aligned with them."""
-    starts, ends = (np.array([complex(*point) for point in points]) for points in zip(*_ends(items, rows), strict=True))
+    pieces = [items[row].piece for row in rows]
+    starts = np.array([complex(*piece.start) for piece in pieces])
+    ends = np.array([complex(*piece.end) for piece in pieces])
     along = ends - starts
     # squares ignore a line's sign: the mean direction is half that of their sum
     ahead = np.sqrt((along * along).sum())
@@ -348,10 +345,6 @@ def _near_lines(items: Sequence[LayeredPiece], rows: list[int], slack: float) ->
     first, second = shapely.STRtree(boxes).query(boxes)
     order = first < second
     return sorted((rows[i], rows[j]) for i, j in zip(first[order].tolist(), second[order].tolist(), strict=True))
-
-
-def _ends(items: Sequence[LayeredPiece], rows: Sequence[int]) -> list[tuple[Point, Point]]:
-    return [(items[row].piece.start, items[row].piece.end) for row in rows]
 
 
 @dataclass(slots=True)

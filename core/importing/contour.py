@@ -5,17 +5,13 @@ from __future__ import annotations
 from dataclasses import dataclass, replace
 from enum import StrEnum
 from math import atan2, dist, pi
-from typing import Final
 
 from core.geometry.piece import Arc, Line, Piece, Point, Side, Turn
 from core.importing.arc_fitting import Fitted, fit_arcs
 from core.importing.joints import joined_chain, reversed_pieces
 from core.importing.nesting import box_of, signed_area
-from core.importing.nodes import SAME_POINT
+from core.importing.nodes import KEY_DECIMALS, SAME_POINT
 from core.units import Kind, Unit, from_mm, show
-
-KEY_DECIMALS: Final = 6
-"""Decimals of a millimeter that count when contours are sorted."""
 
 
 class ContourKind(StrEnum):

@@ -5,7 +5,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Mapping, Sequence
 from collections.abc import Set as AbstractSet
 from dataclasses import dataclass, field, replace
 from math import dist
@@ -13,10 +13,9 @@ from typing import Final
 
 import shapely
 
-from core.geometry.piece import Arc, Line, Piece, Point, Turn
+from core.geometry.piece import Line, Piece, Point, Turn
 from core.importing.clean_up import LayeredPiece, clean_up, reversed_piece
 from core.importing.contour import (
-    KEY_DECIMALS,
     Contour,
     ContourKind,
     joined_open,
@@ -25,10 +24,11 @@ from core.importing.contour import (
     started_at_usual_place,
 )
 from core.importing.curves import moved_piece, pieces_of_ellipse, pieces_of_spline
-from core.importing.drawing import BSpline, Drawing, DrawingError, DrawingUnit, Drawn, EllipseArc
+from core.importing.drawing import BSpline, Drawing, DrawingError, DrawingUnit, Drawn, EllipseArc, Progress, silent
 from core.importing.joints import joined_chain, reversed_pieces
 from core.importing.loops import Chain, chained
 from core.importing.nesting import box_of, boxes_of, containers, crosses_itself, crossings
+from core.importing.nodes import KEY_DECIMALS, SAME_POINT
 from core.program.fields import FARTHEST
 from core.units import Kind, Unit, decimals_shown, from_mm, show
 
@@ -43,13 +43,8 @@ FIT: Final[Mapping[Unit, float]] = {Unit.IN: 0.0002 * 25.4, Unit.MM: 0.005}
 BRANCH_REACH: Final = 2.0
 """A contour ends at a branch if its end is within this many tolerances of it."""
 
-SAME_PLACE: Final = 1e-4
-"""Least tolerance in millimeters that this reach is based on."""
-
 MAX_CROSSING_CHECK: Final = 2000
 """Most closed contours that are checked for touching and crossing."""
-
-Progress = Callable[[str, int, int], None]
 
 
 @dataclass(frozen=True, slots=True)
@@ -112,11 +107,7 @@ class ContourList:
         return self.options.program_unit
 
 
-def _silent(_stage: str, _done: int, _whole: int) -> None:
-    pass
-
-
-def contours_of(drawing: Drawing, options: ImportOptions, progress: Progress = _silent) -> ContourList:
+def contours_of(drawing: Drawing, options: ImportOptions, progress: Progress = silent) -> ContourList:
     """Return the contours of a drawing; DrawingError NOT_FLAT if a chosen layer has an entity outside the plane."""
     for entity in drawing.not_flat:
         if options.layers is None or entity.layer in options.layers:
@@ -172,8 +163,6 @@ def _scaled(drawn: Drawn, scale: float, fit: float) -> Sequence[Piece]:
     match drawn.shape:
         case Line(start, end):
             return (Line(_times(start, scale), _times(end, scale)),)
-        case Arc(start, end, center, turn):
-            return (Arc(_times(start, scale), _times(end, scale), _times(center, scale), turn),)
         case EllipseArc(center, first, second, begin, end):
             return pieces_of_ellipse(EllipseArc(center * scale, first * scale, second * scale, begin, end), fit)
         case BSpline(degree, points, weights, knots):
@@ -212,12 +201,13 @@ def with_joined(listed: ContourList, first: int, second: int) -> ContourList | N
     """
     pair = [next(contour for contour in listed.contours if contour.number == number) for number in (first, second)]
     tolerance, unit = listed.options.tolerance, listed.unit
-    joined = joined_open(pair[0], pair[1], BRANCH_REACH * max(tolerance, SAME_PLACE))
+    joined = joined_open(pair[0], pair[1], BRANCH_REACH * max(tolerance, SAME_POINT))
     if joined is None:
         return None
     rest = [contour for contour in listed.contours if contour not in pair]
-    made = [*rest, replace(joined, number=0)]
-    contours = _with_open_gaps(_nested([_fresh(contour) for contour in made]), unit, tolerance)
+    # without the values that depend on the rest of the list
+    made = [replace(each, problems=(), open_gap=None, open_gap_to=0) for each in (*rest, replace(joined, number=0))]
+    contours = _with_open_gaps(_nested(made), unit, tolerance)
     nodes = [(branch.at, branch.ways) for branch in listed.branches]
     return replace(listed, contours=tuple(contours), branches=_branches(nodes, contours, tolerance))
 
@@ -242,11 +232,6 @@ def _around(listed: ContourList, number: int) -> list[int]:
     while number := listed.contours[number - 1].inside:
         around.insert(0, number)
     return around
-
-
-def _fresh(contour: Contour) -> Contour:
-    """Return a contour without the values that depend on the rest of the list."""
-    return replace(contour, problems=(), open_gap=None, open_gap_to=0)
 
 
 def _nested(contours: Sequence[Contour]) -> list[Contour]:
@@ -364,7 +349,7 @@ def _branches(nodes: Sequence[tuple[Point, int]], contours: Sequence[Contour], t
     tree = shapely.STRtree([shapely.Point(end) for end, _ in ends])
     points = [shapely.Point(at) for at, _ in nodes]
     numbers: dict[int, list[int]] = {}
-    reach = BRANCH_REACH * max(tolerance, SAME_PLACE)
+    reach = BRANCH_REACH * max(tolerance, SAME_POINT)
     for branch, end in tree.query(points, predicate="dwithin", distance=reach).T.tolist():
         numbers.setdefault(branch, []).append(ends[end][1])
     return tuple(Branch(at, ways, tuple(sorted(numbers.get(row, ())))) for row, (at, ways) in enumerate(nodes))

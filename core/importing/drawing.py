@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field
 from enum import StrEnum
 from types import MappingProxyType
@@ -11,13 +11,21 @@ from typing import Final, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from core.geometry.piece import Piece
+from core.geometry.piece import Line
 from core.units import Unit
 
 MAX_BYTES: Final = 64_000_000
 MAX_ENTITIES: Final = 200_000
 MAX_INSERT_DEPTH: Final = 8
 MAX_SHAPES: Final = 1_000_000
+
+
+Progress = Callable[[str, int, int], None]
+"""Called with the stage, the amount of it that is done, and its total."""
+
+
+def silent(_stage: str, _done: int, _whole: int) -> None:
+    """Report no progress."""
 
 
 class DrawingUnit(StrEnum):
@@ -96,7 +104,7 @@ class BSpline:
     knots: NDArray[np.float64]
 
 
-Shape = Piece | EllipseArc | BSpline
+Shape = Line | EllipseArc | BSpline
 
 
 class Drawn(NamedTuple):

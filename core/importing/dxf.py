@@ -29,8 +29,10 @@ from core.importing.drawing import (
     Drawn,
     EllipseArc,
     NotFlat,
+    Progress,
     Shape,
     counted,
+    silent,
 )
 from core.importing.dxf_document import damaged_file, document_of, too_much, words_of
 from core.importing.dxf_tags import Scan, ScannedEntity, is_dxf
@@ -64,15 +66,8 @@ SPLINE_GAP: Final = 0.01
 STEPS_OF_PROGRESS: Final = 100
 """Entities between two calls of the progress callback."""
 
-Progress = Callable[[str, int, int], None]
-"""Called with the stage, the amount of it that is done, and its total."""
 
-
-def _silent(_stage: str, _done: int, _whole: int) -> None:
-    pass
-
-
-def read_dxf(data: bytes, name: str, *, damaged: bool = False, progress: Progress = _silent) -> Drawing:
+def read_dxf(data: bytes, name: str, *, damaged: bool = False, progress: Progress = silent) -> Drawing:
     """Return the drawing in a DXF file's bytes; `name` is the file's name in messages.
 
     With `damaged`, what can be read of a damaged file is taken.  Raises DrawingError.
@@ -489,6 +484,4 @@ def _finite(shape: Shape) -> bool:
             values = (abs(shape.center), abs(shape.first), abs(shape.second), shape.begin, shape.end)
         case BSpline():
             values = (float(np.abs(shape.points).max()), float(shape.weights.max()), float(np.abs(shape.knots).max()))
-        case _:
-            values = ()
     return all(isfinite(value) and abs(value) <= LARGEST for value in values)

@@ -10,8 +10,7 @@ from typing import Final
 
 import numpy as np
 
-from core.geometry.path import Path
-from core.geometry.piece import Arc, Line, Point
+from core.geometry.piece import Line, Point
 from core.importing.contour import Contour, ContourKind, fit_sentence
 from core.importing.contours import ContourList
 from core.importing.drawing import BSpline, Drawing, EllipseArc, Shape, counted
@@ -169,9 +168,8 @@ def extent(drawing: Drawing) -> tuple[float, float]:
 
 def _box(shape: Shape) -> tuple[float, float, float, float]:
     match shape:
-        case Line() | Arc():
-            left, bottom, right, top = Path.from_pieces([shape]).boxes
-            return float(left[0]), float(bottom[0]), float(right[0]), float(top[0])
+        case Line(start, end):
+            points = [complex(*start), complex(*end)]
         case EllipseArc(center, first, second, begin, end):
             steps = [begin + (end - begin) * step / (SAMPLES - 1) for step in range(SAMPLES)]
             points = [center + cos(at) * first + sin(at) * second for at in steps]

@@ -13,12 +13,10 @@ from typing import Final, NamedTuple
 
 from core.geometry.piece import Piece, Point
 from core.importing.clean_up import is_circle, reversed_piece
-from core.importing.nodes import Nodes, nodes_of
+from core.importing.nodes import KEY_DECIMALS, Nodes, nodes_of
 
 MAX_SEARCH: Final = 5_000_000
 """Steps of the search for ways back; the pieces left after that many stay in open chains."""
-
-KEY_DECIMALS: Final = 6
 
 
 class Link(NamedTuple):

@@ -14,7 +14,7 @@ import shapely
 
 from core.geometry.chords import chords_of
 from core.geometry.path import Floats, Path, Pieces, boxes
-from core.geometry.piece import Arc, Piece, Point
+from core.geometry.piece import Arc, Piece
 from core.geometry.piece_arrays import piece_arrays
 from core.verify.self_crossings import self_crossings
 
@@ -51,7 +51,8 @@ def boxes_of(chains: Sequence[Sequence[Piece]]) -> list[Box]:
     if not chains:
         return []
     pieces = [piece for chain in chains for piece in chain]
-    start, end = (np.array([complex(*point) for point in ends]) for ends in zip(*map(_ends, pieces), strict=True))
+    start = np.array([complex(*piece.start) for piece in pieces])
+    end = np.array([complex(*piece.end) for piece in pieces])
     arcs = [piece if isinstance(piece, Arc) else None for piece in pieces]
     center = np.array([complex(*arc.center) if arc else 0j for arc in arcs])
     turn = np.array([int(arc.turn) if arc else 0 for arc in arcs], np.int8)
@@ -60,10 +61,6 @@ def boxes_of(chains: Sequence[Sequence[Piece]]) -> list[Box]:
     outer = (np.minimum, np.minimum, np.maximum, np.maximum)
     extremes = (most.reduceat(side, firsts).tolist() for most, side in zip(outer, sides, strict=True))
     return list(zip(*extremes, strict=True))
-
-
-def _ends(piece: Piece) -> tuple[Point, Point]:
-    return piece.start, piece.end
 
 
 def containers(chains: Sequence[Sequence[Piece]]) -> list[list[int]]:

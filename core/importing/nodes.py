@@ -20,6 +20,9 @@ from core.geometry.piece import Piece, Point
 SAME_POINT: Final = 1e-4
 """Ends within this distance are one point, in millimeters, if TOLERANCE is no smaller; CAD drawings are as exact."""
 
+KEY_DECIMALS: Final = 6
+"""Decimals of a millimeter that count when pieces and contours are sorted."""
+
 NEAR_BY_PATH: Final = 4.0
 """A node within this many tolerances along the pieces themselves is no partner of a loose end."""
 
