@@ -146,6 +146,9 @@ def pieces_of_ellipse(shape: EllipseArc, fit: float) -> list[Piece]:
     flat = abs((shape.first.conjugate() * shape.second).imag)
     if flat <= STRAIGHT * max(a, b):
         return _flattened(shape)
+    if (shape.first.conjugate() * shape.second).imag < 0.0:
+        # a mirrored copy drawn over an arc gives the same arcs
+        shape = EllipseArc(shape.center, shape.first, -shape.second, -shape.end, -shape.begin)
     # cached about the origin: drawings often repeat an ellipse of one size
     x, y = shape.center.real, shape.center.imag
     return [

@@ -230,6 +230,13 @@ def test_an_insert_that_mirrors_and_stretches_a_circle_makes_an_ellipse() -> Non
     assert contour.size == pytest.approx((20.0, 10.0), abs=0.01)
 
 
+def test_an_arc_drawn_twice_is_dropped_where_an_insert_stretches_it() -> None:
+    mirrored = [*arc((-20, 0), 5, 70, 160), (210, 0.0), (220, 0.0), (230, -1.0)]
+    arcs = block("B", arc((20, 0), 5, 20, 110), mirrored)
+    drawing = listed(dxf(insert("B", (0, 0), (41, 2.0), (42, 3.4)), more=arcs))
+    assert len(drawing.contours) == 1
+
+
 def test_texts_of_inserts_are_counted() -> None:
     text = [
         (0, "ATTRIB"),
