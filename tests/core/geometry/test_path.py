@@ -95,6 +95,7 @@ def test_nothing():
     assert Path.from_pieces([]) is EMPTY
     assert joined([]) is EMPTY
     assert joined([EMPTY, EMPTY]) is EMPTY
+    assert joined([EMPTY, PATH, EMPTY]) is PATH
     assert list(EMPTY) == []
 
 

@@ -9,6 +9,7 @@ from dataclasses import replace
 import pytest
 from ezdxf.filemanagement import new as ezdxf_new
 
+from core.geometry.piece import Line
 from core.importing.contour import fit_sentence, fitted_contour
 from core.importing.contours import ContourList, ImportOptions, contours_of
 from core.importing.drawing import Drawing, DrawingError, DrawingUnit
@@ -104,6 +105,19 @@ def test_refusals_name_the_reason() -> None:
         with pytest.raises(DrawingError) as refused:
             read(made(name))
         assert refused.value.text == text
+
+
+@pytest.mark.parametrize(
+    "coordinates",
+    [
+        ((20, 1), (10, 2), (30, 0), (21, 5), (11, 6), (31, 0)),
+        ((10, 2), (11, 6), (20, 1), (21, 5)),
+    ],
+)
+def test_coordinates_in_an_unusual_order_are_read(coordinates: tuple[tuple[int, object], ...]) -> None:
+    drawing = read(dxf([(0, "LINE"), (8, "0"), *coordinates]))
+    assert [drawn.shape for drawn in drawing.shapes] == [Line((2.0, 1.0), (6.0, 5.0))]
+    assert drawing.notes == ()
 
 
 def test_a_drawing_without_contours_says_what_it_has() -> None:

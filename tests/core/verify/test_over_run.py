@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from math import sqrt
+from math import cos, radians, sin, sqrt
 
 import pytest
 
@@ -298,6 +298,17 @@ def test_long_leads_at_both_ends_are_named_as_possible_walls() -> None:
     (over_run, *_) = verdict_findings(judge(contour, Side.LEFT, R, around(R)), contour)
     assert (over_run.code, over_run.severity) == ("OVER_RUN", Severity.WARNING)
     assert "Taken for lead beyond it: segments 1 and 4. " in over_run.text
+
+
+def test_chords_that_count_as_one_straight_line_have_no_over_run(monkeypatch: pytest.MonkeyPatch) -> None:
+    """A drop of 280 degrees and two tangents that cross; a line may bend by so much here that 40 chords are enough."""
+    monkeypatch.setattr("core.verify.surface.IN_LINE", 0.2)
+    turns = [radians(7 * chord - 50) for chord in range(41)]
+    x, y = sin(turns[-1]) + 2 * cos(turns[-1]), -cos(turns[-1]) + 2 * sin(turns[-1])
+    drop = lines((x, -y), *((sin(turn), -cos(turn)) for turn in turns), (x, y))
+    verdict = judge(drop, Side.LEFT, 0.1, lines((9, 9), (8, 9)), leads=Leads.MOVES)
+    assert verdict.crosses_itself
+    assert verdict.over_run is None
 
 
 LEAF_CENTER = (0.75, 2.25)
