@@ -89,3 +89,17 @@ def test_a_short_program_has_its_finding(control: str, blocks: str, words: str) 
     run = ran(f"{unit} F9.\n{blocks}\nM30\n", control, t1=5.0)
     found = [f"{finding.code} {finding.line}:{finding.column} {finding.text}" for finding in run.findings]
     assert any(text.startswith(words) for text in found), found
+
+
+@pytest.mark.parametrize(("control", "stops"), [("linuxcnc", True), ("fanuc:a", True), ("nine-series:a", False)])
+@pytest.mark.parametrize("move", ["G1 X2.", "G2 X2. Y0 I1. J0"])
+def test_lines_and_arcs_without_a_feed_are_reported(move: str, control: str, stops: bool) -> None:
+    """Only some controls stop; under G93, where each move needs its own F, all do."""
+    for mode, words in (("", "There is no feed;"), ("G95\n", "There is no feed;"), ("G93\n", "Under G93 every move")):
+        run = ran(f"G21\n{mode}{move}\nM30\n", control)
+        (finding,) = [finding for finding in run.findings if finding.text.startswith(words)]
+        line = 3 if mode else 2
+        assert (finding.line, run.stopped_at) == (line, line if stops or "G93" in mode else None), mode
+    for feed in ("F9.", "G93 F9."):
+        run = ran(f"G21\n{move} {feed}\nM30\n", control)
+        assert (run.stopped_at, run.findings) == (None, ()), feed
