@@ -11,7 +11,7 @@ import sys
 from pathlib import Path
 
 from app.cli import lifeline
-from app.cli.shell import HELP, NOTHING_ASKED, SHOP_HELP, UNUSABLE, TerminalOptions, prepare, say
+from app.cli.shell import COMMAND_HELP, NOTHING_ASKED, SHOP_HELP, STATUS_UNUSABLE, TerminalOptions, prepare, say
 from app.documents.paths import is_drawing
 
 
@@ -37,7 +37,7 @@ def main(arguments: list[str] | None = None) -> int:
         from app.cli.shop import shop
 
         return shop(given)
-    if word in HELP:
+    if word in COMMAND_HELP:
         from app.cli.commands import command
 
         return command(given)
@@ -63,7 +63,7 @@ def screens(file: Path | None, example: str | None = None, options: TerminalOpti
     """Run the screens on a program, NC file, drawing, or example part, or the start screen; return the exit status."""
     if file is not None and is_drawing(file) and not file.is_file():
         say(f"{file}: there is no such drawing.")
-        return UNUSABLE
+        return STATUS_UNUSABLE
     # must run before the imports below
     prepare()
     from app.cli.screens import run
@@ -82,10 +82,10 @@ def guarded() -> None:
         status = 130
     except BrokenPipeError:
         sys.stderr.close()
-        status = UNUSABLE
+        status = STATUS_UNUSABLE
     except OSError as error:
         say(trouble(error))
-        status = UNUSABLE
+        status = STATUS_UNUSABLE
     sys.exit(status)
 
 

@@ -23,14 +23,14 @@ from app.documents.document import ContourDocument, NcDocument
 from app.documents.paths import current_folder
 from app.documents.service import DocumentService, Opened
 from app.documents.settings import SettingsFile
-from app.screens.base import HEIGHTS, WIDTHS, BaseScreen
+from app.screens.base import HEIGHT_CLASSES, WIDTH_CLASSES, BaseScreen
 from app.screens.contour import ContourScreen
 from app.session.block_findings import Entry
 from app.session.derivation import Request
 from app.session.messages import Tone
 from app.session.posting import CENTER_PATH
-from app.session.session import SEGMENT, Session
-from app.terminal.split_keys import TOLD
+from app.session.session import SEGMENT_FIELD, Session
+from app.terminal.split_keys import KEY_WARNINGS
 from app.transform_actions import TransformActions
 from app.widgets.printable import PRINTABLE
 from app.widgets.status import Surroundings
@@ -62,8 +62,8 @@ class CutcompApp(TransformActions):
 
     CSS_PATH = "app.tcss"
     TITLE = "cutcomp"
-    HORIZONTAL_BREAKPOINTS = WIDTHS
-    VERTICAL_BREAKPOINTS = HEIGHTS
+    HORIZONTAL_BREAKPOINTS = WIDTH_CLASSES
+    VERTICAL_BREAKPOINTS = HEIGHT_CLASSES
     COMMAND_PALETTE_BINDING = "ctrl+k"
     COMMANDS: ClassVar[set[type[Provider] | Callable[[], type[Provider]]]] = {_actions}
     BINDINGS: ClassVar[list[BindingType]] = [
@@ -111,7 +111,10 @@ class CutcompApp(TransformActions):
         for each in theme.themes():
             self.register_theme(each)
         # without the watcher, which would parse every style once more
-        self.set_reactive(CutcompApp.theme, theme.SIXTEEN if few_colors else theme.LIGHT if light else theme.DARK)
+        self.set_reactive(
+            CutcompApp.theme,
+            theme.SIXTEEN_COLOR_THEME if few_colors else theme.LIGHT_THEME if light else theme.DARK_THEME,
+        )
         self.stylesheet.set_variables(self.get_css_variables())
 
     def get_line_filters(self) -> Sequence[LineFilter]:
@@ -187,8 +190,8 @@ class CutcompApp(TransformActions):
 
     def on_key(self, event: Key) -> None:
         """Warn about a key that a slow link has split, or a paste that came without its end."""
-        if event.key in TOLD:
-            self.say(TOLD[event.key], Tone.WARNING)
+        if event.key in KEY_WARNINGS:
+            self.say(KEY_WARNINGS[event.key], Tone.WARNING)
 
     def check_action(self, action: str, parameters: tuple[object, ...]) -> bool | None:
         """Block file and edit actions under a dialog; let Esc end the guide only if it has nothing else to do."""
@@ -370,18 +373,18 @@ class CutcompApp(TransformActions):
 
     def action_light_or_dark(self) -> None:
         """Switch between light and dark, from now on; a sixteen-color terminal has only one theme."""
-        if self.theme == theme.SIXTEEN:
+        if self.theme == theme.SIXTEEN_COLOR_THEME:
             self.say("This terminal has its own sixteen colors: its settings make it light or dark.")
             return
-        light = self.theme == theme.DARK
-        self.theme = theme.LIGHT if light else theme.DARK
+        light = self.theme == theme.DARK_THEME
+        self.theme = theme.LIGHT_THEME if light else theme.DARK_THEME
         self.keep_settings(replace(self.settings, theme="light" if light else "dark"))
 
     def go_to(self, entry: Entry) -> None:
         """Show MILL CONTOUR with the cursor on a finding's segment and field."""
         segment = entry.segment or 0
         self.action_contour()
-        self.move(FormPlace(self.session.place.block, segment), entry.field or SEGMENT)
+        self.move(FormPlace(self.session.place.block, segment), entry.field or SEGMENT_FIELD)
 
     def now(self) -> datetime:
         """Return the local date and time with its time zone."""

@@ -21,7 +21,7 @@ from app.documents.files import refuse_program, why, write_data, write_output
 from app.documents.left_overs import file_of_copy
 from app.documents.nc_text import NC_SUFFIXES
 from app.documents.paths import chosen, is_drawing, is_folder, program_named, short_path, typed, with_suffix, written_at
-from app.documents.patience import DISK, FILE, Disk, within
+from app.documents.patience import DISK_SECONDS, FILE_SECONDS, Disk, within
 from app.documents.questions import (
     DISCARD,
     GO_BACK,
@@ -42,7 +42,7 @@ from app.screens.base import BaseScreen
 from app.screens.dialogs import Phrase, Question
 from app.session.derivation import Request
 from app.session.messages import Tone
-from app.session.session import SEGMENT, Session
+from app.session.session import SEGMENT_FIELD, Session
 from core.program.edit import Edited, FormPlace, Refused
 from core.program.file.read import StoreError
 from core.units import Unit
@@ -87,7 +87,7 @@ class FileActions(DerivationActions):
         """Queue work on the disk and wait for it briefly, unless earlier work is still pending."""
         future = self.disk.do(work)
         if not self._pending:
-            wait([future], DISK)
+            wait([future], DISK_SECONDS)
         self._pending.add(future)
         if not future.done():
             self.say(NO_ANSWER, Tone.WARNING)
@@ -116,7 +116,7 @@ class FileActions(DerivationActions):
 
     def keep(self, session: Session) -> None:
         """Write the session's edits to disk before the next key is read."""
-        self.document = self.document.edited(session.history, session.place, session.cursor.field or SEGMENT)
+        self.document = self.document.edited(session.history, session.place, session.cursor.field or SEGMENT_FIELD)
         self.keep_document(self.document)
 
     def keep_document(self, document: Document) -> None:
@@ -155,7 +155,7 @@ class FileActions(DerivationActions):
         self._change(self.session.with_program(edited, label))
         return True
 
-    def move(self, place: FormPlace, field: str | None = SEGMENT) -> None:
+    def move(self, place: FormPlace, field: str | None = SEGMENT_FIELD) -> None:
         """Put the cursor of the MILL CONTOUR form on a segment, and there on a field.
 
         Remove a new segment that is still empty when the cursor leaves it.
@@ -462,7 +462,7 @@ class FileActions(DerivationActions):
             return written_at(named)
 
         try:
-            written = await asyncio.to_thread(within, FILE, write)
+            written = await asyncio.to_thread(within, FILE_SECONDS, write)
         except TimeoutError:
             self.say("That folder does not answer either. Type a name on another disk, such as ~/copy.", Tone.ERROR)
         except StoreError as error:

@@ -8,9 +8,9 @@ from typing import Final
 
 from textual.theme import BUILTIN_THEMES, Theme
 
-DARK: Final = "cutcomp-dark"
-LIGHT: Final = "cutcomp-light"
-SIXTEEN: Final = "cutcomp-16"
+DARK_THEME: Final = "cutcomp-dark"
+LIGHT_THEME: Final = "cutcomp-light"
+SIXTEEN_COLOR_THEME: Final = "cutcomp-16"
 """The theme with the terminal's own sixteen colors, or none if NO_COLOR is set."""
 
 _ROLES: Final[Mapping[str, tuple[str, str, str]]] = MappingProxyType(
@@ -44,7 +44,7 @@ _ROLES: Final[Mapping[str, tuple[str, str, str]]] = MappingProxyType(
 
 def themes() -> tuple[Theme, ...]:
     """Return the three themes."""
-    return tuple(_theme(name, column) for column, name in enumerate((DARK, LIGHT, SIXTEEN)))
+    return tuple(_theme(name, column) for column, name in enumerate((DARK_THEME, LIGHT_THEME, SIXTEEN_COLOR_THEME)))
 
 
 def _scrollbars(colors: Mapping[str, str]) -> dict[str, str]:
@@ -56,13 +56,13 @@ def _scrollbars(colors: Mapping[str, str]) -> dict[str, str]:
 
 def _theme(name: str, column: int) -> Theme:
     colors = {role: each[column] for role, each in _ROLES.items()}
-    ansi = name == SIXTEEN
+    ansi = name == SIXTEEN_COLOR_THEME
     # Textual's own style sheets fail on an ANSI theme without these variables
     base = BUILTIN_THEMES["ansi-dark"].variables if ansi else {}
     return Theme(
         name,
         ansi=ansi,
-        dark=name != LIGHT,
+        dark=name != LIGHT_THEME,
         primary=colors["focus"],
         accent=colors["focus"],
         warning=colors["warn"],

@@ -14,11 +14,11 @@ from core.program import transform
 from core.program.edit import Edited, Refused
 from core.units import Kind, to_mm
 
-X: Final = NumberEntry("X", Kind.LENGTH)
-Y: Final = NumberEntry("Y", Kind.LENGTH)
-CENTER: Final = (NumberEntry("X CENTER", Kind.LENGTH), NumberEntry("Y CENTER", Kind.LENGTH))
-ANGLE: Final = NumberEntry("ANGLE", Kind.ANGLE, "90")
-COPIES: Final = NumberEntry("COPIES", Kind.COUNT, "1")
+X_ENTRY: Final = NumberEntry("X", Kind.LENGTH)
+Y_ENTRY: Final = NumberEntry("Y", Kind.LENGTH)
+CENTER_ENTRIES: Final = (NumberEntry("X CENTER", Kind.LENGTH), NumberEntry("Y CENTER", Kind.LENGTH))
+ANGLE_ENTRY: Final = NumberEntry("ANGLE", Kind.ANGLE, "90")
+COPIES_ENTRY: Final = NumberEntry("COPIES", Kind.COUNT, "1")
 
 
 class TransformActions(FileActions):
@@ -69,29 +69,29 @@ class TransformActions(FileActions):
     @work(exclusive=True, group="question")
     async def action_shift_block(self) -> None:
         """Shift the block with the cursor."""
-        await self._block("SHIFT BLOCK", "How far, in X and Y.", (X, Y), self._shifted)
+        await self._block("SHIFT BLOCK", "How far, in X and Y.", (X_ENTRY, Y_ENTRY), self._shifted)
 
     @work(exclusive=True, group="question")
     async def action_rotate_block(self) -> None:
         """Rotate the block with the cursor about a point."""
         line = "Counter-clockwise about a point, in degrees."
-        await self._block("ROTATE BLOCK", line, (*CENTER, ANGLE), self._rotated)
+        await self._block("ROTATE BLOCK", line, (*CENTER_ENTRIES, ANGLE_ENTRY), self._rotated)
 
     @work(exclusive=True, group="question")
     async def action_mirror_block(self) -> None:
         """Mirror the block with the cursor about a line."""
         line = "In the line through X, Y at ANGLE: 90 swaps left and right."
-        await self._block("MIRROR BLOCK", line, (X, Y, ANGLE), self._mirrored)
+        await self._block("MIRROR BLOCK", line, (X_ENTRY, Y_ENTRY, ANGLE_ENTRY), self._mirrored)
 
     @work(exclusive=True, group="question")
     async def action_repeat_shifted(self) -> None:
         """Repeat segments, each copy shifted from the one before."""
-        await self._repeat("REPEAT, SHIFTED", (X, Y), self._shifted)
+        await self._repeat("REPEAT, SHIFTED", (X_ENTRY, Y_ENTRY), self._shifted)
 
     @work(exclusive=True, group="question")
     async def action_repeat_rotated(self) -> None:
         """Repeat segments, each copy rotated about a point from the one before."""
-        await self._repeat("REPEAT, ROTATED", (*CENTER, ANGLE), self._rotated)
+        await self._repeat("REPEAT, ROTATED", (*CENTER_ENTRIES, ANGLE_ENTRY), self._rotated)
 
     async def _repeat(
         self, title: str, entries: Sequence[NumberEntry], motion_of: Callable[..., transform.Motion]
@@ -107,7 +107,7 @@ class TransformActions(FileActions):
         here = str(min(max(self.session.place.segment, 1), max(len(rest.block.segments), 1)))
         which = (NumberEntry("FIRST SEGMENT", Kind.COUNT, here), NumberEntry("LAST SEGMENT", Kind.COUNT, here))
         line = "Copies stand after the last of these segments."
-        edited = await self._edited(title, line, (*which, *entries, COPIES), repeated)
+        edited = await self._edited(title, line, (*which, *entries, COPIES_ENTRY), repeated)
         if edited is not None and self.apply(edited, f"{title}, block {place.block}"):
             # messages about the previous edit no longer apply
             self.quiet()

@@ -31,7 +31,7 @@ UNCUT: Final = 1.5e-7
 """Does the cutter reach a point of the surface?  It does if the path is within the radius plus this.  A best path may
 lie JOINED away from where its contour is typed."""
 
-INDEPENDENT: Final = 1e-3
+MIN_INDEPENDENT_SINE: Final = 1e-3
 """Do two conditions on a point determine it?  If the sine of the angle between them is smaller, the last digits of
 typed numbers decide where it is."""
 
@@ -42,10 +42,10 @@ STOCK: Final = 1e-4
 """Is the stock left on the surface worth reporting?  A stretch that is thinner everywhere counts as cut: no
 machine is that exact, and curves drawn as many lines leave that much at every joint."""
 
-SHOWN: Final = 0.00127
+SMALLEST_SHOWN: Final = 0.00127
 """Is a length more than 0.0000 on a form in inches?  Half of its last digit."""
 
-LARGEST: Final = 1e7
+LARGEST_COORDINATE: Final = 1e7
 """Is a coordinate one that a machine could have?  Ten kilometers; beyond it doubles lose the last digit."""
 
 LAST_PASS: Final = 1e-3

@@ -17,7 +17,7 @@ from typing import Final, assert_never
 
 from core.arithmetic import CannotReadError, evaluate
 from core.finding import Finding
-from core.tolerance import LARGEST, ROUNDING
+from core.tolerance import LARGEST_COORDINATE, ROUNDING
 
 MAX_QUOTED: Final = 24
 """Most characters of a user's text that a message quotes."""
@@ -191,7 +191,7 @@ def parse(text: str, kind: Kind, unit: Unit) -> float | Unreadable:
         return Unreadable(str(fault))
     if kind is Kind.COUNT and exact.denominator != 1:
         return Unreadable(f"Type a whole number, such as {max(round(exact), 1)}.")
-    if abs(exact) * (MM_PER[unit] if kind in (Kind.LENGTH, Kind.FEED) else 1) > Fraction(LARGEST):
+    if abs(exact) * (MM_PER[unit] if kind in (Kind.LENGTH, Kind.FEED) else 1) > Fraction(LARGEST_COORDINATE):
         return Unreadable("Too large for any machine.")
     return float(exact)
 

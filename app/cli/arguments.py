@@ -1,11 +1,11 @@
-"""This module has the parsers of the screens and of the commands in `HELP`; other commands have their own."""
+"""This module has the parsers of the screens and of the commands in `COMMAND_HELP`; other commands have their own."""
 
 from __future__ import annotations
 
 import argparse
 from pathlib import Path
 
-from app.cli.shell import HELP, SHOP_HELP
+from app.cli.shell import COMMAND_HELP, SHOP_HELP
 from app.documents.programs import examples
 
 DESCRIPTION = """\
@@ -22,7 +22,7 @@ def screen_parser() -> argparse.ArgumentParser:
         "cutcomp",
         description=DESCRIPTION,
         epilog="commands without a screen:\n"
-        + "".join(f"  cutcomp {name:<10} {text}\n" for name, text in (HELP | SHOP_HELP).items())
+        + "".join(f"  cutcomp {name:<10} {text}\n" for name, text in (COMMAND_HELP | SHOP_HELP).items())
         + "  cutcomp check      what controls do with an NC program\n"
         + "  cutcomp import     contours of a DXF drawing as a program\n\nanother screen:\n"
         + "  cutcomp proof      an NC program, the path a control makes of it, its findings\n\n"
@@ -46,8 +46,8 @@ def screen_parser() -> argparse.ArgumentParser:
 
 
 def command_parser(name: str) -> argparse.ArgumentParser:
-    """Return the parser for one of the commands in `HELP`."""
-    parser = argparse.ArgumentParser(f"cutcomp {name}", description=HELP[name])
+    """Return the parser for one of the commands in `COMMAND_HELP`."""
+    parser = argparse.ArgumentParser(f"cutcomp {name}", description=COMMAND_HELP[name])
     parser.add_argument("file", type=Path, metavar="FILE", help="a program file (TOML), - for standard input")
     if name in ("path", "lookahead"):
         parser.add_argument("--block", type=int, metavar="N", help="this block only")

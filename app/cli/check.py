@@ -20,7 +20,7 @@ from signal import SIG_IGN, SIGINT, signal
 from typing import Final
 
 from app.cli.control_options import add_options, bytes_of, control_of, tools_of, unit_of
-from app.cli.shell import CLEAN, FINDINGS, UNUSABLE, Unusable, reported, say
+from app.cli.shell import STATUS_CLEAN, STATUS_FINDINGS, STATUS_UNUSABLE, Unusable, reported, say
 from app.documents.nc_library import FolderLibrary
 from app.documents.nc_text import NC_SUFFIXES
 from app.documents.paths import printable_path
@@ -173,8 +173,8 @@ def _status_of(checked: _Checked) -> int:
     """Return a file's status; say on standard error why it could not be used."""
     if checked.unusable:
         say(checked.unusable)
-        return UNUSABLE
-    return FINDINGS if any(result.errors for result in checked.answers) else CLEAN
+        return STATUS_UNUSABLE
+    return STATUS_FINDINGS if any(result.errors for result in checked.answers) else STATUS_CLEAN
 
 
 def _contours(paths: list[Path], asked: Asked) -> int:
@@ -184,12 +184,12 @@ def _contours(paths: list[Path], asked: Asked) -> int:
     first, second = (bytes_of(path) for path in paths)
     same, report = same_contours(first, second, asked)
     print(*report, sep="\n")
-    return CLEAN if same else FINDINGS
+    return STATUS_CLEAN if same else STATUS_FINDINGS
 
 
 def _as_json(answers: Iterator[_Checked]) -> int:
     """Print JSON of one shape for any number of files and controls; `check-json.md` describes it."""
-    status, results = CLEAN, list[dict[str, object]]()
+    status, results = STATUS_CLEAN, list[dict[str, object]]()
     for checked in answers:
         status = max(status, _status_of(checked))
         if checked.unusable:
@@ -202,7 +202,7 @@ def _as_json(answers: Iterator[_Checked]) -> int:
 
 def _as_text(answers: Iterator[_Checked], asked: Asked) -> int:
     """Print everything about one program, or the table of all controls."""
-    status = CLEAN
+    status = STATUS_CLEAN
     for checked in answers:
         status = max(status, _status_of(checked))
         if asked.control == "all" and checked.answers:
@@ -238,14 +238,14 @@ def _print_missing(answers: tuple[Answer, ...], program: list[str]) -> None:
 
 def _as_summary(answers: Iterator[_Checked]) -> int:
     """Print one line for each file and control, and then the totals."""
-    status, counts, warned = CLEAN, {CLEAN: 0, FINDINGS: 0, UNUSABLE: 0}, 0
+    status, counts, warned = STATUS_CLEAN, {STATUS_CLEAN: 0, STATUS_FINDINGS: 0, STATUS_UNUSABLE: 0}, 0
     for checked in answers:
         file_status = _status_of(checked)
         status = max(status, file_status)
         counts[file_status] += 1
         for result in checked.answers:
             print(f"{printable_path(checked.path)}: {result.name}: {result.outcome_and_warnings}", flush=True)
-        warned += file_status == CLEAN and any(result.warnings for result in checked.answers)
-    print(f"{sum(counts.values())} files: {counts[CLEAN] - warned} clean, {warned} with warnings, ", end="")
-    print(f"{counts[FINDINGS]} with errors, {counts[UNUSABLE]} not readable.")
+        warned += file_status == STATUS_CLEAN and any(result.warnings for result in checked.answers)
+    print(f"{sum(counts.values())} files: {counts[STATUS_CLEAN] - warned} clean, {warned} with warnings, ", end="")
+    print(f"{counts[STATUS_FINDINGS]} with errors, {counts[STATUS_UNUSABLE]} not readable.")
     return status

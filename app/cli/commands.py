@@ -9,9 +9,9 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Final
 
 from app.cli.arguments import command_parser
-from app.cli.shell import CLEAN, FINDINGS, Unusable, reported, say
+from app.cli.shell import STATUS_CLEAN, STATUS_FINDINGS, Unusable, reported, say
 from app.documents.files import load, load_from, write_output
-from core.comp.lookahead import HIGHEST, LOWEST
+from core.comp.lookahead import MAX_LOOKAHEAD, MIN_LOOKAHEAD
 from core.program.model import Number, Program
 from core.units import segment_name, sentence
 
@@ -22,7 +22,7 @@ if TYPE_CHECKING:
     from core.output.nc import Refusal
     from core.pipeline.derived import Derived, DerivedBlock
 
-DASH: Final = "-"
+STANDARD_STREAM: Final = "-"
 """Means standard input or standard output in place of a file."""
 STDIN: Final = "standard input"
 OTHER_PICTURES: Final = frozenset(
@@ -49,21 +49,21 @@ def _derived(path: Path, block: int | None = None, lookahead: str | None = None)
 
 
 def _program(path: Path) -> Program:
-    return load_from(sys.stdin.buffer, STDIN) if str(path) == DASH else load(path)
+    return load_from(sys.stdin.buffer, STDIN) if str(path) == STANDARD_STREAM else load(path)
 
 
 def _name(path: Path) -> str:
     """Return the name of the program for its output."""
-    return STDIN if str(path) == DASH else path.stem
+    return STDIN if str(path) == STANDARD_STREAM else path.stem
 
 
 def _with_lookahead(program: Program, text: str) -> Program:
     if text.lower() == "cal":
         value = None
-    elif text.isdecimal() and LOWEST <= int(text) <= HIGHEST:
+    elif text.isdecimal() and MIN_LOOKAHEAD <= int(text) <= MAX_LOOKAHEAD:
         value = Number(float(text))
     else:
-        raise Unusable(f"--lookahead {text}: type {LOWEST} to {HIGHEST}, or cal.")
+        raise Unusable(f"--lookahead {text}: type {MIN_LOOKAHEAD} to {MAX_LOOKAHEAD}, or cal.")
     return replace(program, blocks=tuple(replace(block, lookahead=value) for block in program.blocks))
 
 
@@ -72,7 +72,7 @@ def _chosen(derived: Derived, number: int | None) -> tuple[DerivedBlock, ...]:
 
 
 def _status(derived: Derived, number: int | None) -> int:
-    return FINDINGS if any(block.errors for block in _chosen(derived, number)) else CLEAN
+    return STATUS_FINDINGS if any(block.errors for block in _chosen(derived, number)) else STATUS_CLEAN
 
 
 def _report(derived: Derived, number: int | None) -> None:
@@ -140,7 +140,7 @@ def post(options: argparse.Namespace) -> int:
     if not isinstance(result, Posted):
         reasons, remedies = refusals(derived, result)
         say(f"nothing was posted. {' '.join((*reasons, *remedies))}{_override_hint(result, options)}")
-        return FINDINGS
+        return STATUS_FINDINGS
     if options.override is not None and not result.overridden:
         say("--override was not needed: nothing stood against posting.")
     for note in result.notes:
@@ -151,12 +151,12 @@ def post(options: argparse.Namespace) -> int:
 
 def _override_hint(result: Refusal, options: argparse.Namespace) -> str:
     """Return the words that override the refusal; empty if it cannot be overridden."""
-    from core.output.objections import OVERRIDABLE, OVERRIDE
+    from core.output.objections import OVERRIDABLE_CODES, OVERRIDE_PHRASE
 
-    if options.control is not None or not all(finding.code in OVERRIDABLE for finding in result.findings):
+    if options.control is not None or not all(finding.code in OVERRIDABLE_CODES for finding in result.findings):
         return ""
     wrong = "" if options.override is None else f" {options.override!r} are not the words."
-    return f"{wrong} To post in spite of it: --override '{OVERRIDE}'"
+    return f"{wrong} To post in spite of it: --override '{OVERRIDE_PHRASE}'"
 
 
 def _control(options: argparse.Namespace) -> str | None:
@@ -185,7 +185,7 @@ def plot(options: argparse.Namespace) -> int:
 
 
 def _deliver(text: str, output: Path | None) -> None:
-    if output is None or str(output) == DASH:
+    if output is None or str(output) == STANDARD_STREAM:
         sys.stdout.write(text)
         sys.stdout.flush()
     else:

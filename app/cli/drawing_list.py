@@ -5,7 +5,14 @@ from __future__ import annotations
 import argparse
 from dataclasses import replace
 
-from core.importing.contours import FIT, MAX_TOLERANCE, TOLERANCE, ContourList, ImportOptions, contours_of
+from core.importing.contours import (
+    FIT_TOLERANCE,
+    JOIN_TOLERANCE,
+    MAX_TOLERANCE,
+    ContourList,
+    ImportOptions,
+    contours_of,
+)
 from core.importing.drawing import Drawing, DrawingError, DrawingUnit, Progress
 from core.importing.dxf import read_dxf
 from core.importing.listing import unit_question
@@ -35,6 +42,6 @@ def _import_options(options: argparse.Namespace, drawing: Drawing, unit: Drawing
     for layer in options.layer:
         if layer not in drawing.layers:
             raise DrawingError("OPTION", f"--layer {layer}: the drawing has {', '.join(drawing.layers) or 'none'}.")
-    tolerance = TOLERANCE[program] if options.tolerance is None else to_mm(options.tolerance, program)
-    fit = to_mm(options.fit, program) if options.fit else FIT[program]
+    tolerance = JOIN_TOLERANCE[program] if options.tolerance is None else to_mm(options.tolerance, program)
+    fit = to_mm(options.fit, program) if options.fit else FIT_TOLERANCE[program]
     return ImportOptions(unit, tolerance, fit, frozenset(options.layer) or None)

@@ -11,7 +11,7 @@ from pathlib import Path
 
 from app.cli.control_options import add_tool_options, bytes_of, control_of, tools_of
 from app.cli.drawing_list import list_drawing
-from app.cli.shell import CLEAN, Unusable, reported, say
+from app.cli.shell import STATUS_CLEAN, Unusable, reported, say
 from app.documents.drawing_files import Worker, drawing_bytes
 from app.documents.files import write_text
 from app.documents.programs import empty_program
@@ -46,7 +46,7 @@ def import_contours(arguments: list[str]) -> int:
         raise Unusable(str(error)) from error
     except DrawingError as error:
         raise Unusable(f"{error.text}{_remedy(error, options)}") from error
-    return CLEAN
+    return STATUS_CLEAN
 
 
 def _refuse_unused(options: argparse.Namespace) -> None:

@@ -12,15 +12,15 @@ from threading import Thread
 from time import sleep
 from typing import Final
 
-VARIABLE: Final = "CUTCOMP_LIFELINE"
+LIFELINE_VARIABLE: Final = "CUTCOMP_LIFELINE"
 """The environment variable with the number of the pipe's end."""
-GRACE: Final = 1.0
+GRACE_SECONDS: Final = 1.0
 """Seconds that a program has to end in order; all accepted work is on the disk already."""
 
 
 def watch() -> None:
     """Watch the pipe that the environment names, if any."""
-    number = os.environ.pop(VARIABLE, "")
+    number = os.environ.pop(LIFELINE_VARIABLE, "")
     if number.isdecimal():
         os.set_inheritable(int(number), False)
         Thread(target=_wait, args=(int(number),), name="lifeline", daemon=True).start()
@@ -30,5 +30,5 @@ def _wait(handle: int) -> None:
     while os.read(handle, 1):
         pass
     os.kill(os.getpid(), signal.SIGHUP)
-    sleep(GRACE)
+    sleep(GRACE_SECONDS)
     os.kill(os.getpid(), signal.SIGKILL)

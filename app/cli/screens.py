@@ -8,7 +8,7 @@ from dataclasses import replace
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from app.cli.shell import NOTHING_ASKED, UNUSABLE, TerminalOptions, say
+from app.cli.shell import NOTHING_ASKED, STATUS_UNUSABLE, TerminalOptions, say
 from app.documents.document import ContourDocument
 from app.documents.nc_text import NC_SUFFIXES
 from app.documents.paths import is_drawing, program_named
@@ -37,7 +37,7 @@ def run(
 
     if reason := "" if in_browser() else driver.refusal(os.environ):
         say(reason)
-        return UNUSABLE
+        return STATUS_UNUSABLE
     drawing = path if path is not None and asked is None and is_drawing(path) else None
     service = DocumentService()
     try:
@@ -47,10 +47,10 @@ def run(
             opened = service.open(path) if asked and path else begin(service, path, example)
     except StoreError as error:
         say(str(error))
-        return UNUSABLE
+        return STATUS_UNUSABLE
     if isinstance(opened, Trouble):
         say(opened.text)
-        return UNUSABLE
+        return STATUS_UNUSABLE
     home = path is None and example is None
     app = made(service, opened, options, asked, home=home)
     app.drawing = drawing
@@ -88,7 +88,9 @@ def made(
     if trouble and opened.notice is None:
         opened = replace(opened, notice=Notice(trouble, warning=True))
     environment = character_set.own(os.environ)
-    name, character_sets = ("", driver.MODES) if browser else driver.characters(environment, options.characters)
+    name, character_sets = (
+        ("", driver.CHARACTER_SETS) if browser else driver.characters(environment, options.characters)
+    )
     if settings.characters in character_sets and not options.characters:
         character_sets = (settings.characters, *(each for each in character_sets if each != settings.characters))
     program = opened.document if isinstance(opened.document, ContourDocument) else ContourDocument.of(empty_program())

@@ -14,11 +14,11 @@ from core.program.file.read import StoreError
 
 Asked = TypeVar("Asked")
 
-CLEAN: Final = 0
-FINDINGS: Final = 1
-UNUSABLE: Final = 2
+STATUS_CLEAN: Final = 0
+STATUS_FINDINGS: Final = 1
+STATUS_UNUSABLE: Final = 2
 
-HELP: Final = {
+COMMAND_HELP: Final = {
     "path": "the center path of every block",
     "lookahead": "what becomes of the path at every look-ahead value",
     "post": "write the NC file",
@@ -48,7 +48,7 @@ class Unusable(Exception):
 
 
 def reported(command: Callable[[Asked], int]) -> Callable[[Asked], int]:
-    """Return the command changed to report Unusable and StoreError as a message and return the status UNUSABLE."""
+    """Return the command changed to report Unusable and StoreError as a message and return `STATUS_UNUSABLE`."""
 
     @wraps(command)
     def run(asked: Asked) -> int:
@@ -56,7 +56,7 @@ def reported(command: Callable[[Asked], int]) -> Callable[[Asked], int]:
             return command(asked)
         except (Unusable, StoreError) as error:
             say(str(error))
-            return UNUSABLE
+            return STATUS_UNUSABLE
 
     return run
 

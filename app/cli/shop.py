@@ -8,8 +8,8 @@ from contextlib import suppress
 from datetime import datetime
 from pathlib import Path
 
-from app.cli.commands import DASH
-from app.cli.shell import CLEAN, FINDINGS, SHOP_HELP, UNUSABLE, Unusable, reported, say
+from app.cli.commands import STANDARD_STREAM
+from app.cli.shell import SHOP_HELP, STATUS_CLEAN, STATUS_FINDINGS, STATUS_UNUSABLE, Unusable, reported, say
 from app.documents import times
 from app.documents.files import load, save, write_output
 from app.documents.lock import Owner, myself, release, take
@@ -57,11 +57,11 @@ def sheet(options: argparse.Namespace) -> int:
 
     program = load(options.file)
     text = setup_sheet(program, options.output or Path("-"), datetime.now().astimezone(), name=options.file.stem)
-    if options.output in (None, Path(DASH)):
+    if options.output in (None, Path(STANDARD_STREAM)):
         sys.stdout.write(text)
     else:
         write_output(options.output, text)
-    return FINDINGS if NOT_READY in text else CLEAN
+    return STATUS_FINDINGS if NOT_READY in text else STATUS_CLEAN
 
 
 def tools(options: argparse.Namespace) -> int:
@@ -87,7 +87,7 @@ def _import_table(options: argparse.Namespace) -> int:
     if table.errors:
         say(table_faults(str(options.table), table.errors))
         say("nothing was imported.")
-        return UNUSABLE
+        return STATUS_UNUSABLE
     for finding in table.findings:
         say(f"{options.table}, line {finding.line}, column {finding.column}: warning: {finding.text}")
     program = merged(program, table.tools)
@@ -98,7 +98,7 @@ def _import_table(options: argparse.Namespace) -> int:
 def _print_tools(program: Program) -> int:
     for tool in program.tools:
         print(tool_line(tool, program.unit))
-    return CLEAN
+    return STATUS_CLEAN
 
 
 def serve(options: argparse.Namespace) -> int:
@@ -112,10 +112,10 @@ def serve(options: argparse.Namespace) -> int:
     try:
         from app.cli.web_server import serve as serve_screens
     except ImportError:
-        raise Unusable(web.MISSING) from None
+        raise Unusable(web.MISSING_PACKAGE_TEXT) from None
     try:
         serve_screens(options.file, options.host, options.port)
     except (OSError, UnicodeError) as error:
         address = web.address(options.host, options.port)
         raise Unusable(f"{address} cannot be served: {web.why_not_served(error)}") from error
-    return CLEAN
+    return STATUS_CLEAN

@@ -17,12 +17,14 @@ from pathlib import Path
 from typing import Final
 from urllib.parse import urlsplit
 
-LOCAL: Final = ("127.0.0.1", "::1", "localhost")
-MISSING: Final = "the browser needs one more package: install cutcomp[web], or textual-serve beside cutcomp."
+LOCAL_HOSTS: Final = ("127.0.0.1", "::1", "localhost")
+MISSING_PACKAGE_TEXT: Final = (
+    "the browser needs one more package: install cutcomp[web], or textual-serve beside cutcomp."
+)
 NO_LOGIN: Final = "There is no login: whoever has the address works as you, on your files."
 
 
-FOCUS: Final = """<script>
+FOCUS_SCRIPT: Final = """<script>
 const look = setInterval(() => {
   const typed = document.querySelector("textarea");
   if (typed) typed.focus();
@@ -91,7 +93,7 @@ def adapted(page: str, served: str, asked: str) -> str:
     page = ELSEWHERE.sub("", page)
     if _NAME.fullmatch(asked):
         page = page.replace(f"//{listening}/", f"//{asked}/")
-    return page.replace("</body>", f"{FOCUS}</body>")
+    return page.replace("</body>", f"{FOCUS_SCRIPT}</body>")
 
 
 def welcome(asked: str, origin: str, host: str, port: int) -> bool:
@@ -106,4 +108,4 @@ def welcome(asked: str, origin: str, host: str, port: int) -> bool:
     except ValueError:
         # an address that cannot be read
         return False
-    return asked_port == port and name is not None and (not is_local(host) or name in LOCAL)
+    return asked_port == port and name is not None and (not is_local(host) or name in LOCAL_HOSTS)

@@ -13,9 +13,9 @@ from typing import Final
 from textual_serve.app_service import AppService
 
 from app.cli import lifeline
-from app.cli.lifeline import GRACE
+from app.cli.lifeline import GRACE_SECONDS
 
-UNREAD: Final = 15.0
+MAX_UNREAD_SECONDS: Final = 15.0
 """Seconds that a page or its program may leave unread what it is sent; then the program is killed."""
 LARGEST_COMPLAINT: Final = 16_384
 """The most bytes of a program's standard error that are logged; the rest is read and dropped."""
@@ -64,9 +64,9 @@ class Service(AppService):
 
     async def _send_or_kill(self, sending: Coroutine[None, None, bool]) -> bool:
         try:
-            return await asyncio.wait_for(sending, UNREAD)
+            return await asyncio.wait_for(sending, MAX_UNREAD_SECONDS)
         except TimeoutError:
-            log.warning("a program has taken nothing for %d seconds: it ends", UNREAD)
+            log.warning("a program has taken nothing for %d seconds: it ends", MAX_UNREAD_SECONDS)
             self._kill()
             return False
 
@@ -79,7 +79,7 @@ class Service(AppService):
                 stdin=pipe,
                 stdout=pipe,
                 stderr=pipe,
-                env=self._build_environment(width=width, height=height) | {lifeline.VARIABLE: str(read_end)},
+                env=self._build_environment(width=width, height=height) | {lifeline.LIFELINE_VARIABLE: str(read_end)},
                 pass_fds=(read_end,),
             )
         finally:
@@ -95,9 +95,9 @@ class Service(AppService):
     async def on_data(self, payload: bytes) -> None:
         """Send what the program has painted to its page; kill the program if the page does not read it."""
         try:
-            await asyncio.wait_for(super().on_data(payload), UNREAD)
+            await asyncio.wait_for(super().on_data(payload), MAX_UNREAD_SECONDS)
         except TimeoutError:
-            log.warning("a page has read nothing for %d seconds: its program ends", UNREAD)
+            log.warning("a page has read nothing for %d seconds: its program ends", MAX_UNREAD_SECONDS)
             self._kill()
             raise ConnectionResetError from None
 
@@ -107,9 +107,9 @@ class Service(AppService):
                 self._process.kill()
 
     async def stop(self) -> None:
-        """Ask the program to end; kill it after GRACE, since one whose output is not read cannot answer."""
+        """Ask the program to end; kill it after `GRACE_SECONDS`, since one whose output is not read cannot answer."""
         try:
-            await asyncio.wait_for(super().stop(), GRACE)
+            await asyncio.wait_for(super().stop(), GRACE_SECONDS)
         except TimeoutError:
             self._task = None
         finally:

@@ -16,16 +16,16 @@ from aiohttp import web
 from aiohttp.typedefs import Handler, Middleware
 from textual_serve.server import Server
 
-from app.cli.lifeline import GRACE
+from app.cli.lifeline import GRACE_SECONDS
 from app.cli.web import adapted, address, command, knows, welcome
 from app.cli.web_children import Service
 
-SESSIONS: Final = 8
+MAX_PAGES: Final = 8
 """The most pages at a time; each is a process of its own."""
-FULL: Final = f"{SESSIONS} pages are open, and there is room for no more. Close one, then load this page again."
+FULL_TEXT: Final = f"{MAX_PAGES} pages are open, and there is room for no more. Close one, then load this page again."
 FULL_SHOWN: Final = 600.0
 """Seconds that a page shows this sentence."""
-LOOK: Final = 0.5
+CHECK_SECONDS: Final = 0.5
 """Seconds between two checks that a page is still there."""
 HEADERS: Final = {
     "X-Frame-Options": "DENY",
@@ -52,7 +52,7 @@ def serve(file: Path | None, host: str, port: int) -> None:
         # printed once it listens; a log of every request would repeat the secret
         print=lambda _: print(words, flush=True),
         access_log=None,
-        shutdown_timeout=GRACE,
+        shutdown_timeout=GRACE_SECONDS,
     )
 
 
@@ -93,7 +93,7 @@ class ScreenServer(Server):
     async def handle_index(self, request: web.Request) -> Any:  # noqa: ANN401  # a template's values or its response
         """Return the page; refuse it if there is no more room."""
         if self.pages.full:
-            raise web.HTTPServiceUnavailable(text=FULL)
+            raise web.HTTPServiceUnavailable(text=FULL_TEXT)
         answer: Any = await super().handle_index(request)
         answer.text = adapted(answer.text, self.public_url, request.headers.get("Host", ""))
         return answer
@@ -111,7 +111,7 @@ async def _add_headers(_: web.Request, response: web.StreamResponse) -> None:
 
 
 class Pages:
-    """The open pages: at most SESSIONS at a time, each logged with its address, none outliving its connection."""
+    """The open pages: at most `MAX_PAGES` at a time, each logged with its address, none outliving its connection."""
 
     def __init__(self, handle: Callable[[web.Request], Awaitable[web.WebSocketResponse]]) -> None:
         self._handle = handle
@@ -121,7 +121,7 @@ class Pages:
     @property
     def full(self) -> bool:
         """True if there is no more room."""
-        return len(self._open) >= SESSIONS
+        return len(self._open) >= MAX_PAGES
 
     async def connect(self, request: web.Request) -> web.WebSocketResponse:
         """Serve a page's connection from its beginning to its end."""
@@ -132,7 +132,7 @@ class Pages:
         pages.add(page)
         try:
             while not page.done():
-                await asyncio.wait({page}, timeout=LOOK)
+                await asyncio.wait({page}, timeout=CHECK_SECONDS)
                 if request.transport is None:
                     # the connection is gone, whatever the page waits for
                     page.cancel()
@@ -144,7 +144,7 @@ class Pages:
 
     async def end(self) -> None:
         """End all pages, and wait until they have ended."""
-        for patience in (GRACE + 0.2, 0.3):
+        for patience in (GRACE_SECONDS + 0.2, 0.3):
             pages = self._open | self._refused
             for page in pages:
                 # the second time, this ends the wait for the browser to close the connection
@@ -157,7 +157,7 @@ async def _refuse_in_page(request: web.Request) -> web.WebSocketResponse:
     """Say in the page that there is no room for it; a refused connection would only look broken."""
     socket = web.WebSocketResponse()
     await socket.prepare(request)
-    await socket.send_bytes(f"\x1b[2J\x1b[H{FULL}\r\n".encode())
+    await socket.send_bytes(f"\x1b[2J\x1b[H{FULL_TEXT}\r\n".encode())
     with suppress(TimeoutError):
         # until the page is closed: when the connection ends, the page covers the sentence
         await asyncio.wait_for(socket.receive(), FULL_SHOWN)

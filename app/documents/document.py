@@ -19,7 +19,7 @@ from core.program.file.write import dumps
 from core.program.history import History
 from core.program.model import Program
 
-SEGMENT: Final = "segment"
+SEGMENT_FIELD: Final = "segment"
 """The field that the cursor is on when a program is opened."""
 FIRST_START: Final = FormPlace(1, 0)
 """START of block 1."""
@@ -50,7 +50,7 @@ class ContourDocument:
     saved_program: Program
     file: FileState = field(default_factory=FileState)
     cursor: FormPlace = FIRST_START
-    field_name: str = SEGMENT
+    field_name: str = SEGMENT_FIELD
     title: str = ""
 
     @classmethod

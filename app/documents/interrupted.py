@@ -22,7 +22,7 @@ from app.documents.files import read_file, short_name
 from app.documents.journal import Head, Journal, Kind
 from app.documents.lock import Owner
 
-NOBODY: Final = 0
+DEAD_PROCESS: Final = 0
 """The process number of an owner that is dead."""
 _NAME: Final = re.compile(r"\.[0-9a-f]{12}-(?P<size>\d{1,12})\.tmp")
 
@@ -40,7 +40,7 @@ class InterruptedSave:
         work = document.work_of(self.data)
         if work is None:
             return None
-        owner = Owner(user, gethostname(), NOBODY, "", "")
+        owner = Owner(user, gethostname(), DEAD_PROCESS, "", "")
         head = Head(owner, str(document.file.path), document.file.stamp)
         return Journal(document.kind, head, work, (), times.of(self.changed))
 

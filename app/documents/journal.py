@@ -25,7 +25,7 @@ from core.program.file.read import StoreError
 from core.program.history import History, UndoStep
 from core.program.model import Program
 
-FORMAT: Final = 3
+JOURNAL_FORMAT: Final = 3
 MAX_JOURNAL_BYTES: Final = 200_000_000
 """The size in bytes of the largest journal that is read: room for the largest NC text and edits as long as it."""
 MAX_WHOLE_EDITS: Final = 500
@@ -86,7 +86,7 @@ def beginning(kind: Kind, head: Head, work: Work, place: Place, time: str) -> It
         first = first.undo()
     stamp = None if head.stamp is None else [head.stamp.size, head.stamp.changed, head.stamp.digest]
     whose = {"owner": asdict(head.owner), "file": head.file, "stamp": stamp}
-    yield {"journal": FORMAT, "kind": kind, **whose, "base": _base(first), "at": place, "time": time}
+    yield {"journal": JOURNAL_FORMAT, "kind": kind, **whose, "base": _base(first), "at": place, "time": time}
     yield from continuing([*_redone(first), *({"undo": 1} for _ in work.future)], place, time)
 
 
@@ -186,7 +186,7 @@ def owner_in_another_version(data: bytes) -> Owner | None:
     line = next((line for line, _, _ in whole_lines(data[: data.find(b"\n") + 1])), b"null")
     try:
         match json.loads(line):
-            case {"owner": owner, **rest} if rest.get("journal") != FORMAT:
+            case {"owner": owner, **rest} if rest.get("journal") != JOURNAL_FORMAT:
                 return owner_of(owner)
             case _:
                 return None

@@ -22,7 +22,7 @@ from app.documents.files import short_name, sync_folder, write_all
 Record = Mapping[str, Any]
 """The JSON object on one line of the journal."""
 
-SUFFIX: Final = ".cutcomp-journal"
+JOURNAL_SUFFIX: Final = ".cutcomp-journal"
 
 
 class DamagedError(Exception):
@@ -163,7 +163,7 @@ def whole_lines(data: bytes) -> Iterator[tuple[bytes, int, int]]:
 def journal_path(path: Path) -> Path:
     """Return the path of a file's journal: hidden, beside the file that a symbolic link leads to."""
     target = Path(os.path.realpath(path))
-    return target.with_name(f".{short_name(target.name)}{SUFFIX}")
+    return target.with_name(f".{short_name(target.name)}{JOURNAL_SUFFIX}")
 
 
 def new_path(path: Path) -> Path:
@@ -185,13 +185,13 @@ def asides(path: Path) -> Iterator[Path]:
 
 def place_of(path: Path) -> Path:
     """Return the original path of a journal that was set aside; the path itself if it was not."""
-    prefix, suffix, _ = path.name.partition(SUFFIX)
+    prefix, suffix, _ = path.name.partition(JOURNAL_SUFFIX)
     return path.with_name(prefix + suffix)
 
 
 def why_aside(path: Path) -> str:
     """Return why a journal was set aside, as `set_aside` recorded it; empty if it was not."""
-    return path.name.partition(f"{SUFFIX}.")[2].rpartition("-")[0]
+    return path.name.partition(f"{JOURNAL_SUFFIX}.")[2].rpartition("-")[0]
 
 
 def set_aside(path: Path, why: str) -> Path:

@@ -16,13 +16,13 @@ from typing import Final
 from app.documents import times
 from app.documents.files import NotAFileError, read_file
 from app.documents.journal import MAX_JOURNAL_BYTES, Journal, Kind, owner_in_another_version, read_journal
-from app.documents.journal_file import SUFFIX, JournalFile, asides, journal_path, place_of, why_aside
+from app.documents.journal_file import JOURNAL_SUFFIX, JournalFile, asides, journal_path, place_of, why_aside
 from app.documents.lock import Owner, alive
 from core.units import plain
 
 MAX_KEPT_COPIES: Final = 40
 """The most kept copies that are listed, the newest; the others stay in the folder."""
-UNNAMED: Final = "a program without a name"
+UNNAMED_PROGRAM: Final = "a program without a name"
 CUT_NAME: Final = 100
 """The number of characters of a file's name that the name of a journal in the user's folder begins with."""
 KEPT_COPY_WORDS: Final = {"kept": "kept", "discarded": "discarded", "theirs": "taken-over", "damaged": "damaged"}
@@ -41,7 +41,7 @@ def state_folder() -> Path:
 def journal_place(file: Path | None, me: Owner, state: Path) -> Path:
     """Return the path of the journal for work on a file, or for work without a file."""
     if file is None:
-        return state / f"unnamed-{me.host}-{me.pid}-{times.stamp(me.since)}{SUFFIX}"
+        return state / f"unnamed-{me.host}-{me.pid}-{times.stamp(me.since)}{JOURNAL_SUFFIX}"
     adjacent = journal_path(file)
     return adjacent if os.access(adjacent.parent, os.W_OK) else elsewhere(file, state)
 
@@ -52,7 +52,7 @@ def elsewhere(file: Path, state: Path) -> Path:
 
     target = os.path.realpath(file)
     digest = blake2b(target.encode("utf-8", "surrogateescape"), digest_size=8).hexdigest()
-    return state / f"{_name_prefix(target)}{digest}{SUFFIX}"
+    return state / f"{_name_prefix(target)}{digest}{JOURNAL_SUFFIX}"
 
 
 def _name_prefix(target: str) -> str:
@@ -141,9 +141,13 @@ def _still_wants_answer(path: Path) -> bool:
 
 def never_saved(folder: Path, state: Path) -> list[Path]:
     """Return a folder's programs that have a journal but no file yet; raise OSError if the folder cannot be read."""
-    adjacent = [folder / path.name[1:].removesuffix(SUFFIX) for path in folder.iterdir() if path.name.endswith(SUFFIX)]
+    adjacent = [
+        folder / path.name[1:].removesuffix(JOURNAL_SUFFIX)
+        for path in folder.iterdir()
+        if path.name.endswith(JOURNAL_SUFFIX)
+    ]
     unsaved = [path for path in adjacent if _holds_something(journal_path(path))]
-    named = ((path, path.name.removesuffix(SUFFIX).rpartition("-")[0]) for path in _entries(state))
+    named = ((path, path.name.removesuffix(JOURNAL_SUFFIX).rpartition("-")[0]) for path in _entries(state))
     unsaved += [
         folder / name for path, name in named if elsewhere(folder / name, state) == path and _holds_something(path)
     ]
@@ -164,7 +168,7 @@ def _entries(folder: Path) -> list[Path]:
 
 
 def _unnamed(state: Path) -> list[Path]:
-    journals = state.glob(f"unnamed-*{SUFFIX}")
+    journals = state.glob(f"unnamed-*{JOURNAL_SUFFIX}")
     return sorted(journals, key=lambda path: (_changed(path), path.name), reverse=True)
 
 
@@ -257,14 +261,14 @@ def file_of_copy(path: Path, folder: Path) -> Path | None:
     if not path.name.startswith("."):
         if name is not None:
             return Path(name)
-        return None if _file_name(path) == UNNAMED else folder / _file_name(path)
+        return None if _file_name(path) == UNNAMED_PROGRAM else folder / _file_name(path)
     adjacent = path.with_name(Path(name).name if name is not None else _file_name(path))
     return adjacent if journal_path(adjacent) == place_of(path.resolve()) else path.with_name(_file_name(path))
 
 
 def _set_aside_in(folder: Path, state: Path) -> Iterator[tuple[int, Path]]:
     with suppress(OSError):
-        for path in folder.glob(f"*{SUFFIX}.*" if folder == state else f".*{SUFFIX}.*"):
+        for path in folder.glob(f"*{JOURNAL_SUFFIX}.*" if folder == state else f".*{JOURNAL_SUFFIX}.*"):
             if _why(path) in KEPT_COPY_WORDS:
                 with suppress(OSError):
                     yield path.stat().st_mtime_ns, path
@@ -281,12 +285,12 @@ def _is_listed(path: Path, folder: Path, state: Path) -> bool:
     """
     name = _file_name(path)
     here = path.name.startswith(".") or place_of(path) == elsewhere(folder / name, state)
-    return here or name == UNNAMED or name.lower().endswith(".toml") or len(name) >= CUT_NAME
+    return here or name == UNNAMED_PROGRAM or name.lower().endswith(".toml") or len(name) >= CUT_NAME
 
 
 def _file_name(path: Path) -> str:
     """Return the name of the file that a journal is about, possibly cut, from the journal's own name."""
-    name = place_of(path).name.removesuffix(SUFFIX)
+    name = place_of(path).name.removesuffix(JOURNAL_SUFFIX)
     if name.startswith("."):
         return name[1:]
-    return UNNAMED if name.startswith("unnamed-") else name.rpartition("-")[0]
+    return UNNAMED_PROGRAM if name.startswith("unnamed-") else name.rpartition("-")[0]

@@ -19,7 +19,7 @@ from typing import Final
 
 from app.documents.files import NotAFileError, TooLargeError, read_file, short_name, write_all
 
-SUFFIX: Final = ".cutcomp-lock"
+LOCK_SUFFIX: Final = ".cutcomp-lock"
 
 
 @dataclass(frozen=True, slots=True)
@@ -36,14 +36,14 @@ class Owner:
     since: str
 
 
-UNKNOWN: Final = Owner("somebody", "", 0, "", "")
+UNKNOWN_OWNER: Final = Owner("somebody", "", 0, "", "")
 """The owner of a lock that this login may not read."""
 MAX_PID: Final = 2**31 - 1
 """The largest process number that a system can assign."""
 MAX_LOCK_BYTES: Final = 4096
 ENDED: Final = "ended"
-LOOKS: Final = 4
-BETWEEN: Final = 0.05
+MAX_READS: Final = 4
+SECONDS_BETWEEN_READS: Final = 0.05
 """How many times, and how many seconds apart, an incomplete lock is read; writing one takes only a moment."""
 
 
@@ -84,7 +84,7 @@ def started(pid: int) -> str:
 
 def alive(owner: Owner) -> bool:
     """True if the owner may still be running; on another host it always may."""
-    if owner == UNKNOWN or owner.host != gethostname():
+    if owner == UNKNOWN_OWNER or owner.host != gethostname():
         return True
     if not 0 < owner.pid <= MAX_PID:
         # kill takes 0 and negative numbers for groups of processes
@@ -102,7 +102,7 @@ def alive(owner: Owner) -> bool:
 def lock_path(path: Path) -> Path:
     """Return the path of a file's lock: hidden, beside the file that a symbolic link leads to."""
     target = Path(os.path.realpath(path))
-    return target.with_name(f".{short_name(target.name)}{SUFFIX}")
+    return target.with_name(f".{short_name(target.name)}{LOCK_SUFFIX}")
 
 
 def take(path: Path, me: Owner) -> Lock | Owner:
@@ -118,7 +118,7 @@ def take(path: Path, me: Owner) -> Lock | Owner:
             _clear(lock.path)
         else:
             return lock
-    return _owner(lock.path) or UNKNOWN
+    return _owner(lock.path) or UNKNOWN_OWNER
 
 
 def take_over(path: Path, me: Owner) -> Lock:
@@ -177,12 +177,12 @@ def _create(lock: Lock) -> None:
 
 
 def _owner(path: Path) -> Owner | None:
-    """Return the owner in a lock file; None if there is no lock or no owner in it; UNKNOWN if it may not be read.
+    """Return the owner in a lock file; None if there is no lock or owner; `UNKNOWN_OWNER` if it may not be read.
 
     An incomplete lock is just being written, or its writer met a full disk or a power cut: it is read again for a
     moment, and then counts as nobody's.
     """
-    for _ in range(LOOKS):
+    for _ in range(MAX_READS):
         try:
             return owner_of(json.loads(read_file(path, MAX_LOCK_BYTES)[0]))
         except FileNotFoundError:
@@ -191,9 +191,9 @@ def _owner(path: Path) -> Owner | None:
             # not a lock of this program: nobody's
             return None
         except OSError:
-            return UNKNOWN
+            return UNKNOWN_OWNER
         except (ValueError, RecursionError):
-            sleep(BETWEEN)
+            sleep(SECONDS_BETWEEN_READS)
     return None
 
 

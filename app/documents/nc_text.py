@@ -14,9 +14,9 @@ from core.program.history import splice
 
 MAX_NC_BYTES: Final = 64_000_000
 """The size of the largest NC text that is opened in bytes."""
-MARKS: Final = ((b"\xff\xfe", "utf-16-le"), (b"\xfe\xff", "utf-16-be"))
+BYTE_ORDER_MARKS: Final = ((b"\xff\xfe", "utf-16-le"), (b"\xfe\xff", "utf-16-be"))
 """The byte order marks of UTF-16."""
-MARK: Final = "\ufeff"
+BYTE_ORDER_MARK: Final = "\ufeff"
 """The byte order mark as the first character of a text."""
 _COMMON: Final = (".nc", ".ngc", ".tap", ".cnc", ".txt", ".iso", ".eia", ".gcode", ".din", ".mpf", ".spf", ".min", ".h")
 NC_SUFFIXES: Final = frozenset((*_COMMON, ".anc", ".i", ".ncc", ".ncf", ".prg", ".ptp"))
@@ -48,7 +48,9 @@ class NcText:
     @staticmethod
     def read(data: bytes, known: str = "") -> NcText:
         """Return a file's text, in the known encoding or else UTF-16 by its mark or UTF-8; Latin-1 if that fails."""
-        for encoding in (known,) if known else (*(name for mark, name in MARKS if data.startswith(mark)), "utf-8"):
+        for encoding in (
+            (known,) if known else (*(name for mark, name in BYTE_ORDER_MARKS if data.startswith(mark)), "utf-8")
+        ):
             try:
                 text = data.decode(encoding)
             except (UnicodeDecodeError, LookupError):
@@ -72,7 +74,7 @@ class NcText:
 
     def text(self, row: int) -> str:
         """Return a line without its end, empty for a row that does not exist."""
-        return _END.sub("", self.lines[row]).removeprefix(MARK) if 0 <= row < len(self.lines) else ""
+        return _END.sub("", self.lines[row]).removeprefix(BYTE_ORDER_MARK) if 0 <= row < len(self.lines) else ""
 
     def takes(self, text: str) -> bool:
         """True if the file's encoding can hold a text."""
@@ -99,8 +101,8 @@ class NcText:
             if not _END.search(lines[-1]):
                 lines[-1] += self._usual_end()
         lines += [text for text in texts[-1:] if text]
-        if self.lines and self.lines[0].startswith(MARK):
-            lines[:1] = [MARK + "".join(lines[:1])]
+        if self.lines and self.lines[0].startswith(BYTE_ORDER_MARK):
+            lines[:1] = [BYTE_ORDER_MARK + "".join(lines[:1])]
         change = splice(self.lines, tuple(lines))
         return self._with_change(Change(change.at, change.old, change.new)) if change.old or change.new else self
 

@@ -14,7 +14,7 @@ from typing import Final
 from app.documents import times
 from app.documents.document import Document
 from app.documents.journal import Journal, Kind
-from app.documents.left_overs import UNNAMED, Unreadable
+from app.documents.left_overs import UNNAMED_PROGRAM, Unreadable
 from app.documents.lock import Owner
 from app.documents.paths import folder, outside, printable_path
 from core.units import printable
@@ -276,7 +276,7 @@ def _compared_with(document: Document) -> str:
 def unreadable_work(document: Document, path: Path, left: Unreadable, today: str) -> Ask:
     """Report unsaved work that cannot be read, so that nobody overlooks it."""
     who, when = printable(left.user), times.short(left.time, today)
-    name = UNNAMED if document.file.path is None else printable(document.file.path.name)
+    name = UNNAMED_PROGRAM if document.file.path is None else printable(document.file.path.name)
     if left.what:
         lines = [f"In place of the unsaved work on {name} there is {left.what}."]
     elif left.hidden:

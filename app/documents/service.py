@@ -17,7 +17,7 @@ from app.documents.document import MAX_BYTES, AnyDocument, ContourDocument, Docu
 from app.documents.files import holds_program, load, read_file, refuse_program, stamp_of, stamp_of_data, why, write_data
 from app.documents.interrupted import interrupted_saves
 from app.documents.journal import Head, Journal, Kind, beginning, continuing, records_between, same_edits
-from app.documents.journal_file import SUFFIX, JournalFile, journal_path, new_path, set_aside, why_aside
+from app.documents.journal_file import JOURNAL_SUFFIX, JournalFile, journal_path, new_path, set_aside, why_aside
 from app.documents.left_overs import (
     Unreadable,
     elsewhere,
@@ -33,14 +33,14 @@ from app.documents.left_overs import (
 )
 from app.documents.lock import Lock, Owner, alive, held_by, myself, release, take, take_over, taken_by
 from app.documents.paths import as_program, chosen, folder, is_folder, outside, printable_path, short_path, written_at
-from app.documents.patience import FILE, within
+from app.documents.patience import FILE_SECONDS, within
 from app.documents.programs import empty_program, example, examples
 from app.documents.questions import GO_BACK, Ask, held_sentence, name_of, person, whole_name
 from core.program.file.read import StoreError
 from core.program.model import unread_texts
 from core.units import Unit, printable
 
-TEMPORARY: Final = ".tmp"
+TEMPORARY_SUFFIX: Final = ".tmp"
 """The suffix of the file that an interrupted save leaves."""
 MAX_JOURNAL_GROWTH: Final = {Kind.CONTOUR: 8_000_000, Kind.NC: 64_000_000}
 """The length in bytes beyond which the journal of a document that stays unsaved is rewritten from its current work."""
@@ -157,7 +157,7 @@ class DocumentService:
         if (kept := self._open_here(path)) is not None:
             return Trouble(f"{printable(path.name)} is open already.", kept.known)
         try:
-            document = within(FILE, lambda: self._read(path, kept_copy))
+            document = within(FILE_SECONDS, lambda: self._read(path, kept_copy))
         except TimeoutError as error:
             return Trouble(f"{short_path(path)} cannot be opened: {error}.")
         except OSError as error:
@@ -427,7 +427,7 @@ class DocumentService:
         """Return the document without the work, which is kept `whose`: as a backup, or for its author."""
         aside = path
         try:
-            if isinstance(left, Journal) and path.suffix == TEMPORARY:
+            if isinstance(left, Journal) and path.suffix == TEMPORARY_SUFFIX:
                 aside = self._keep_interrupted(document, path, left)
             elif isinstance(left, Journal) and (alive(left.head.owner) or not self._is_mine(path, left)):
                 aside = self._move_aside(path, left)
@@ -443,7 +443,7 @@ class DocumentService:
     def _keep_interrupted(self, document: Document, path: Path, journal: Journal) -> Path:
         """Turn an interrupted save into a journal among the kept copies, and return its path."""
         work, file = document.restored(journal), document.file.path
-        copy = new_journal(journal_place(file, self.me, self.state).with_suffix(f"{SUFFIX}.saved"), file)
+        copy = new_journal(journal_place(file, self.me, self.state).with_suffix(f"{JOURNAL_SUFFIX}.saved"), file)
         copy.add(self._all_records(work))
         copy.close()
         path.unlink()

@@ -19,7 +19,7 @@ MAX_RECENT_FILES: Final = 8
 MAX_FILES_WITH_TOOLS: Final = 100
 """The most NC programs whose tools are remembered."""
 MAX_SETTINGS_BYTES: Final = 1_000_000
-CHARACTERS: Final = ("braille", "block", "ascii")
+CHARACTER_SETS: Final = ("braille", "block", "ascii")
 """The character sets that a drawing can be made of."""
 THEMES: Final = ("dark", "light")
 
@@ -78,7 +78,7 @@ def parsed(text: str) -> Settings:
     characters = held.get("characters", held.get("mode"))
     return Settings(
         tuple(filter(_usable, recent))[:MAX_RECENT_FILES] if isinstance(recent, list) else (),
-        characters if characters in CHARACTERS else "",
+        characters if characters in CHARACTER_SETS else "",
         held["theme"] if held.get("theme") in THEMES else "",
         Unit(unit) if unit in tuple(Unit) else Unit.IN,
         held["folder"] if _usable(held.get("folder")) else "",

@@ -17,7 +17,7 @@ from app.documents.left_overs import KeptCopy, kept_copies, left_by_dead, left_o
 from app.documents.lock import alive, user
 from app.documents.nc_text import NC_SUFFIXES
 from app.documents.paths import is_drawing
-from app.documents.patience import FILE, FOLDER, within
+from app.documents.patience import FILE_SECONDS, FOLDER_SECONDS, within
 from app.documents.programs import examples, is_program
 from core.finding import Severity
 from core.pipeline.derived import Derived, DerivedBlock
@@ -62,7 +62,7 @@ class Facts:
 def facts_of(path: Path, known: Facts | None = None) -> Facts:
     """Return the facts of a file on disk; call this in a worker, since it derives the whole program."""
     try:
-        facts, program = within(FILE, lambda: _read(path, known))
+        facts, program = within(FILE_SECONDS, lambda: _read(path, known))
     except TimeoutError as error:
         return Facts(path, outcome=Outcome.UNREADABLE, trouble=f"{path.name}: {error}.")
     return facts if program is None else _judged(facts, program)
@@ -175,12 +175,12 @@ class Listed:
 
 def programs_of(folder: Path) -> tuple[Listed, ...]:
     """Return a folder's files that can be opened, examples and kept copies; raise OSError if it cannot be read."""
-    entries = within(FOLDER, lambda: tuple(_listed_files(folder)))
+    entries = within(FOLDER_SECONDS, lambda: tuple(_listed_files(folder)))
     parts = tuple(example_programs())
     # in the folder of the examples, list each of them only once, as an example
     programs = (entry for entry in entries if not entry.folder and entry.path not in {part.path for part in parts})
     folders = (entry for entry in entries if entry.folder)
-    copies = within(FOLDER, lambda: kept_copies(folder, state_folder()))
+    copies = within(FOLDER_SECONDS, lambda: kept_copies(folder, state_folder()))
     return (*programs, *parts, *folders, *(Listed(copy.path, copy.name, copy=copy) for copy in copies))
 
 

@@ -47,7 +47,7 @@ from app.widgets.option_rows import OptionRows, control_rows
 from app.widgets.plain import PlainLabel, PlainText
 from app.widgets.softkeys import Softkey
 from app.widgets.status import Status
-from app.widgets.verdict import MARKS
+from app.widgets.verdict import MARKS_OF_CHARACTERS
 from core.controls.control_names import shown_name
 from core.controls.control_tools import CutterTool, ToolId, ToolTable, commented_size, tool_id
 from core.controls.registry import choices
@@ -59,13 +59,13 @@ if TYPE_CHECKING:
     from core.draw.view import View
     from core.pipeline.checking import Asked
 
-READING: Final = (
+READING_PROMPT: Final = (
     "Enter edits, N and P go from finding to finding, C another control, T a tool's diameter, V compares all controls."
 )
-EDITING: Final = "Editing. A line is taken when the cursor leaves it; Esc ends editing."
-STEPS: Final = {Unit.IN: 0.001, Unit.MM: 0.01}
+EDITING_PROMPT: Final = "Editing. A line is taken when the cursor leaves it; Esc ends editing."
+DIAMETER_STEPS: Final = {Unit.IN: 0.001, Unit.MM: 0.01}
 """The step by which < and > change a diameter."""
-ORDER: Final = tuple(Severity)
+SEVERITY_ORDER: Final = tuple(Severity)
 """Severities, the most severe first."""
 _NAMED: Final = re.compile(r"\s*([^=]*[^=\s])\s*=(.*)")
 
@@ -347,7 +347,7 @@ class ProofScreen(BaseScreen):
         for finding in result.findings:
             if finding.line is not None:
                 known = marks.get(finding.line, Severity.INFO)
-                marks[finding.line] = min(known, finding.severity, key=ORDER.index)
+                marks[finding.line] = min(known, finding.severity, key=SEVERITY_ORDER.index)
         self.query_one(Listing).marks = marks
         self._show_findings(held)
         self._show_titles()
@@ -447,7 +447,7 @@ class ProofScreen(BaseScreen):
 
     def _show_findings(self, held: Finding | None) -> None:
         """List the findings; keep `held` highlighted if it is on the cursor's line or the list has the focus."""
-        findings, marks = self.query_one("#proof-findings", OptionList), MARKS[self.host.characters]
+        findings, marks = self.query_one("#proof-findings", OptionList), MARKS_OF_CHARACTERS[self.host.characters]
         listed = () if self.result is None else self.result.findings
         findings.border_title = f"FINDINGS  {len(listed)}" if listed else "FINDINGS  none"
         at = listed.index(held) if held in listed else None
@@ -459,7 +459,7 @@ class ProofScreen(BaseScreen):
 
     def _gravest(self, among: Sequence[int]) -> int | None:
         """Return the index of the first of the most severe findings among these; None if there are none."""
-        return min(among, key=lambda index: ORDER.index(self.result_findings[index].severity), default=None)
+        return min(among, key=lambda index: SEVERITY_ORDER.index(self.result_findings[index].severity), default=None)
 
     def _line(self, finding: Finding, error: str, warning: str) -> Content:
         sign = {Severity.ERROR: error, Severity.WARNING: warning}.get(finding.severity, "i")
@@ -650,7 +650,7 @@ class ProofScreen(BaseScreen):
         if tool is None:
             self.say(f"Tool {self.tool} has no diameter yet: T gives it one.")
             return
-        size = round(tool.diameter + by * STEPS[tool.unit or self.unit], 6)
+        size = round(tool.diameter + by * DIAMETER_STEPS[tool.unit or self.unit], 6)
         self._with_tool(replace(tool, diameter=size))
 
     # ---- the frame
@@ -664,7 +664,7 @@ class ProofScreen(BaseScreen):
 
     def prompt_text(self) -> Sentence:
         """Return what the keys do."""
-        return Sentence(READING if self.query_one(Listing).read_only else EDITING)
+        return Sentence(READING_PROMPT if self.query_one(Listing).read_only else EDITING_PROMPT)
 
     def help_lines(self) -> tuple[str, ...]:
         """Return what the screen is for, and its keys."""

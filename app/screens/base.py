@@ -50,8 +50,8 @@ SMALLEST = (60, 20)
 
 TWO_PRESSES: Final = 0.5
 """Seconds within which a key may have been pressed twice for one."""
-WIDTHS: Final = [(0, "-narrow"), (80, "-native"), (100, "-medium"), (132, "-wide"), (190, "-huge")]
-HEIGHTS: Final = [(0, "-short"), (28, "-tall")]
+WIDTH_CLASSES: Final = [(0, "-narrow"), (80, "-native"), (100, "-medium"), (132, "-wide"), (190, "-huge")]
+HEIGHT_CLASSES: Final = [(0, "-short"), (28, "-tall")]
 """The style class of a screen from each number of columns, or of lines, upward."""
 
 
@@ -94,8 +94,8 @@ class BaseScreen(Screen[None]):
     def compose(self) -> ComposeResult:
         """Lay out the frame around the body; set the size classes first, or everything would be styled twice."""
         for points, size in (
-            (WIDTHS, self.app.size.width),
-            (HEIGHTS, self.app.size.height),
+            (WIDTH_CLASSES, self.app.size.width),
+            (HEIGHT_CLASSES, self.app.size.height),
         ):
             self.add_class(max(point for point in points if point[0] <= size)[1], update=False)
         with Horizontal(id="main"):

@@ -30,13 +30,13 @@ from app.screens.dialogs import ChooseLine
 from app.screens.enter_stops import next_stop, run_lacks, run_stops, unanswered
 from app.screens.form_screen import FormScreen
 from app.screens.values import prompt_of
-from app.session.block_findings import TO_TYPE, WAITS, Entry, block_findings, remedy
+from app.session.block_findings import TO_TYPE, WAITING_CODES, Entry, block_findings, remedy
 from app.session.guide import on_form
 from app.session.messages import Sentence, Tone
-from app.session.session import SEGMENT, Cursor, Session
+from app.session.session import SEGMENT_FIELD, Cursor, Session
 from app.session.work import Work
 from app.widgets.drawing import Drawing
-from app.widgets.field import LISTED, ChoiceField, NumberField
+from app.widgets.field import LISTED_FIELDS, ChoiceField, NumberField
 from app.widgets.findings_list import FindingsList
 from app.widgets.form import Form
 from app.widgets.picture import Picture
@@ -71,14 +71,14 @@ NEW_SEGMENTS: Final[dict[str, type[Segment]]] = {
     "c": ChamferSegment,
 }
 """The letters that add a new segment, or change the kind of one that is still empty."""
-KINDS: Final = "L LINE, A ARC, B BLEND ARC, C CHAMFER"
-LATER: Final = "Or Page Down: the next segment may give it."
-CLOSED: Final = "The contour is closed. F8 leaves it; right arrow adds a segment."
+KINDS_PROMPT: Final = "L LINE, A ARC, B BLEND ARC, C CHAMFER"
+LATER_PROMPT: Final = "Or Page Down: the next segment may give it."
+CLOSED_PROMPT: Final = "The contour is closed. F8 leaves it; right arrow adds a segment."
 
 
-DEPTHS: Final = frozenset({"z_start", "z_bottom"})
+DEPTH_FIELDS: Final = frozenset({"z_start", "z_bottom"})
 """The fields of START between which the cut lies."""
-SWITCHED: Final = frozenset({"choice", "tangent"})
+SWITCHED_FIELDS: Final = frozenset({"choice", "tangent"})
 """Choices that Space steps through: SOLUTION to the next answer, TANGENT to the other one."""
 
 NEAR_CELLS: Final = 1.5
@@ -172,7 +172,7 @@ class ContourScreen(FormScreen):
                     yield PlainLabel(id="file", classes="head-note")
                 with Horizontal(id="segment-line", classes="head"):
                     yield PlainLabel("SEGMENT", id="segment-label", classes="head-label")
-                    yield SegmentField(SEGMENT, str(session.place.segment), id=SEGMENT)
+                    yield SegmentField(SEGMENT_FIELD, str(session.place.segment), id=SEGMENT_FIELD)
                     yield PlainLabel(id="segment-kind", classes="head-kind")
                     yield PlainLabel(id="segment-count", classes="head-note")
                 with Vertical(id="fields"):
@@ -245,7 +245,7 @@ class ContourScreen(FormScreen):
             label = self.query_one(f"#{name}", Label)
             if str(label.content) != text:
                 label.update(text)
-        self.query_one(f"#{SEGMENT}", SegmentField).show(str(segment))
+        self.query_one(f"#{SEGMENT_FIELD}", SegmentField).show(str(segment))
 
     def follow_shown(self, shown: Session) -> None:
         """Update verdict, drawings and lists; keep the block's last ones while a new path is being calculated."""
@@ -347,7 +347,7 @@ class ContourScreen(FormScreen):
             return
         self.quiet()
         if self.current is not None:
-            self._left_field = (self.current_session.place, self.current.name or SEGMENT)
+            self._left_field = (self.current_session.place, self.current.name or SEGMENT_FIELD)
         is_open = self.has_class(f"-{name}")
         for panel in PANELS:
             self.set_class(panel == name and not is_open, f"-{panel}")
@@ -360,8 +360,8 @@ class ContourScreen(FormScreen):
 
     def _focus_left_field(self) -> None:
         """Focus the field that the cursor left to go to a list, or SEGMENT if another segment was chosen there."""
-        place, name = self._left_field or (None, SEGMENT)
-        self.focus_field(name if place == self.current_session.place else SEGMENT)
+        place, name = self._left_field or (None, SEGMENT_FIELD)
+        self.focus_field(name if place == self.current_session.place else SEGMENT_FIELD)
 
     def action_restore(self) -> None:
         """Restore the old value; from a list, go back to the form and the drawing."""
@@ -400,7 +400,7 @@ class ContourScreen(FormScreen):
     def _finding_chosen(self, event: OptionList.OptionSelected) -> None:
         """Go to the field that the finding is about."""
         entry = self.entries[event.option_index]
-        self.go(entry.segment or 0, entry.field or SEGMENT)
+        self.go(entry.segment or 0, entry.field or SEGMENT_FIELD)
 
     # ---- the fields
 
@@ -411,15 +411,15 @@ class ContourScreen(FormScreen):
     def names(self) -> list[str]:
         """Return SEGMENT, the left column, then the right; SOLUTION, last for Enter, is in the left column."""
         right = RIGHT_COLUMN[form_at(self.current_session)]
-        return [SEGMENT, *sorted(super().names(), key=right.__contains__)]
+        return [SEGMENT_FIELD, *sorted(super().names(), key=right.__contains__)]
 
     def widget(self, name: str) -> NumberField | ChoiceField | None:
         """Return the widget of SEGMENT or of a field of the form."""
-        return self.query_one(f"#{SEGMENT}", SegmentField) if name == SEGMENT else super().widget(name)
+        return self.query_one(f"#{SEGMENT_FIELD}", SegmentField) if name == SEGMENT_FIELD else super().widget(name)
 
     def focus_field(self, name: str) -> None:
         """Put the cursor on a field, or on SEGMENT if the field belongs to another form, as a finding's may."""
-        super().focus_field(SEGMENT if name and self.widget(name) is None else name)
+        super().focus_field(SEGMENT_FIELD if name and self.widget(name) is None else name)
 
     def value(self, name: str) -> Value | str:
         """Return what a field holds."""
@@ -461,7 +461,7 @@ class ContourScreen(FormScreen):
         session = self.current_session
         last = session.segment is not None and session.place.segment == len(session.block.segments)
         waits = finding.code == "MISSING" and last and not run_stops(session)
-        return f" {LATER}" if waits and session.segment is not None and not is_empty(session.segment) else ""
+        return f" {LATER_PROMPT}" if waits and session.segment is not None and not is_empty(session.segment) else ""
 
     def _run_sentence(self, prompt: str, field: Field | None = None) -> Sentence | None:
         """Return why this segment's run has no answer, with the prompt if there is room.
@@ -473,7 +473,7 @@ class ContourScreen(FormScreen):
         finding = run_trouble(session)
         if finding is None:
             return None
-        waits = finding.code in WAITS
+        waits = finding.code in WAITING_CODES
         tone = Tone.WARNING if finding.code in TO_TYPE else Tone.ERROR
         text = sentence(finding, session.program.unit) + self._or_later(finding)
         if not waits and finding.field not in (None, "choice") and finding.segment != session.place.segment:
@@ -503,7 +503,7 @@ class ContourScreen(FormScreen):
         if isinstance(segment, LineSegment) and is_empty(segment) and field is not None and field.name == "x_end":
             widget = self.current
             if isinstance(widget, NumberField) and not widget.edited:
-                return Sentence(f"{field.prompt} Or: {KINDS.partition(', ')[2]}.")
+                return Sentence(f"{field.prompt} Or: {KINDS_PROMPT.partition(', ')[2]}.")
         if isinstance(self.current, SegmentField):
             prompt = SEGMENT_PROMPT if self.current_session.block.segments else FIRST_SEGMENT
             return self._run_sentence("Right arrow: next segment. ENTER: edit this one.") or Sentence(prompt)
@@ -557,7 +557,7 @@ class ContourScreen(FormScreen):
         may_follow = stop is not None and run_lacks(session)
         if session.program is not before and run_stops(session) and not may_follow:
             return
-        if session.program is not before and widget.name in DEPTHS and self._say_depth():
+        if session.program is not before and widget.name in DEPTH_FIELDS and self._say_depth():
             return
         if stop is not None:
             self.focus_field(stop)
@@ -580,13 +580,13 @@ class ContourScreen(FormScreen):
         if missing is not None:
             self.focus_field(missing)
         elif session.place.segment == 0 and session.block.segments:
-            self.focus_field(SEGMENT)
+            self.focus_field(SEGMENT_FIELD)
         elif session.place.segment < len(session.block.segments):
             self.go(session.place.segment + 1)
         elif session.derived_block.solved.closed:
-            self.focus_field(SEGMENT)
+            self.focus_field(SEGMENT_FIELD)
             if not self.host.guided:
-                self.say(CLOSED)
+                self.say(CLOSED_PROMPT)
         else:
             self._insert(session.place.segment + 1, LineSegment())
 
@@ -604,7 +604,7 @@ class ContourScreen(FormScreen):
             self.quiet()
             self.go(int(text))
 
-    def go(self, segment: int, field: str = SEGMENT) -> None:
+    def go(self, segment: int, field: str = SEGMENT_FIELD) -> None:
         """Move the cursor to a segment of this block."""
         self.host.move(FormPlace(self.current_session.place.block, segment), field)
 
@@ -639,7 +639,7 @@ class ContourScreen(FormScreen):
         outcome = without if isinstance(without, Refused) else insert_segment(without, session.place, kind())
         form = table.form_of(kind())
         if self.host.apply(outcome, f"{form} {session.place.segment}, block {session.place.block}"):
-            self.go(session.place.segment, table.TABLES[form][0].name)
+            self.go(session.place.segment, table.FIELDS_OF_FORM[form][0].name)
 
     def action_insert_segment(self) -> None:
         """Insert a LINE before the segment with the cursor."""
@@ -648,10 +648,10 @@ class ContourScreen(FormScreen):
     def _insert(self, number: int, segment: Segment) -> None:
         session = self.current_session
         if session.segment is not None and is_empty(session.segment) and number > session.place.segment:
-            self.say(f"Nothing is typed yet in segment {session.place.segment}: {KINDS}.")
+            self.say(f"Nothing is typed yet in segment {session.place.segment}: {KINDS_PROMPT}.")
             first = self.names()[1]
             # in a choice field a letter selects an option
-            self.focus_field(first if isinstance(self.widget(first), NumberField) else SEGMENT)
+            self.focus_field(first if isinstance(self.widget(first), NumberField) else SEGMENT_FIELD)
             return
         place = FormPlace(session.place.block, number)
         if number == 1 and not session.block.segments:
@@ -659,7 +659,7 @@ class ContourScreen(FormScreen):
         outcome = insert_segment(session.program, place, segment)
         form = table.form_of(segment)
         if self.host.apply(outcome, f"new {form} {number}, block {place.block}"):
-            self.go(number, table.TABLES[form][0].name)
+            self.go(number, table.FIELDS_OF_FORM[form][0].name)
 
     @on(ChoiceField.Blanked)
     def _blanked(self, event: ChoiceField.Blanked) -> None:
@@ -674,13 +674,13 @@ class ContourScreen(FormScreen):
     def action_list_field(self) -> None:
         """Open the list of the field with the cursor: its choices, the tools, or the look-ahead table."""
         widget = self.current
-        if isinstance(widget, ChoiceField) and widget.name in SWITCHED:
+        if isinstance(widget, ChoiceField) and widget.name in SWITCHED_FIELDS:
             widget.action_step(1)
         elif isinstance(widget, ChoiceField):
             widget.action_spell_or_list()
         elif widget is not None and widget.name == "lookahead" and self.take():
             self.app.call_later(self.app.run_action, "app.lookahead")
-        elif widget is not None and widget.name in LISTED:
+        elif widget is not None and widget.name in LISTED_FIELDS:
             self._choose_tool(widget.name or "")
 
     @work(exclusive=True, group="question")

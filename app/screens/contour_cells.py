@@ -13,7 +13,7 @@ from app.session.words import counted, length
 from app.widgets.field import Cell, State
 from core.finding import Finding
 from core.pipeline.derived import DerivedBlock, Tag
-from core.program.fields import SOLUTION, TABLES, Field, Form, form_of
+from core.program.fields import FIELDS_OF_FORM, SOLUTION, Field, Form, form_of
 from core.program.model import Block, Number, Segment, Unread
 from core.program.solve.solution import Solution, solution_at
 from core.program.solve.solved import Solved, SolvedRun, SolvedSegment, Value
@@ -29,7 +29,7 @@ RIGHT_COLUMN: Final[Mapping[Form, frozenset[str]]] = MappingProxyType(
     }
 )
 """The fields in the right column of each form; all others are in the left one."""
-MISSING: Final = frozenset({"MISSING", "TOOL_VALUE"})
+MISSING_CODES: Final = frozenset({"MISSING", "TOOL_VALUE"})
 """The findings on blank fields of START that are needed."""
 
 
@@ -44,7 +44,7 @@ def fields_at(session: Session) -> tuple[Field, ...]:
 
 
 def _every_field(form: Form) -> tuple[Field, ...]:
-    return (*TABLES[form], SOLUTION) if form in (Form.LINE, Form.ARC) else TABLES[form]
+    return (*FIELDS_OF_FORM[form], SOLUTION) if form in (Form.LINE, Form.ARC) else FIELDS_OF_FORM[form]
 
 
 def _visible(session: Session, field: Field) -> bool:
@@ -130,7 +130,7 @@ def missing_fields(session: Session) -> tuple[str, ...]:
     if session.segment is not None:
         return solved_segment(session).missing
     findings = session.derived_block.solved.findings
-    return tuple(finding.field for finding in findings if finding.code in MISSING and finding.field)
+    return tuple(finding.field for finding in findings if finding.code in MISSING_CODES and finding.field)
 
 
 def solved_segment(session: Session) -> SolvedSegment:

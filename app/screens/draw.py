@@ -22,7 +22,7 @@ from app.widgets.drawing import LOOK_KEYS, Drawing
 from app.widgets.findings_list import FindingsList, heading
 from app.widgets.plain import PlainLabel
 from app.widgets.softkeys import Softkey
-from app.widgets.verdict import MARKS, Case, chips
+from app.widgets.verdict import MARKS_OF_CHARACTERS, Case, chips
 from core.program.edit import FormPlace, pick_joint
 from core.program.model import Number
 from core.program.solve.solved import SolvedRun
@@ -122,7 +122,9 @@ class DrawScreen(BaseScreen):
         self.query_one("#draw-block", Label).update(str(block.number))
         self.query_one("#draw-segment", Label).update(f"DRAW   segment {segment}" if segment else "DRAW   START")
         case = Case(block, session.lookahead_table, unit)
-        self.query_one("#draw-chips", Label).update(chips(case, MARKS[self.host.characters], findings_key="N"))
+        self.query_one("#draw-chips", Label).update(
+            chips(case, MARKS_OF_CHARACTERS[self.host.characters], findings_key="N")
+        )
         before = self._subject
         near, view = (None, None) if before is None else (before.near, before.view)
         self._draw(Subject(block, unit, segment, near=near, view=view, cross=self.cross))
@@ -138,7 +140,7 @@ class DrawScreen(BaseScreen):
         self._subject = self.drawing.subject = subject
 
     def _show_heading(self) -> None:
-        marks = MARKS[self.host.characters]
+        marks = MARKS_OF_CHARACTERS[self.host.characters]
         self.drawing.heading = "DRAWING" if self.at is None else heading(self.entries, self.at, marks)
 
     def action_finding(self, by: int) -> None:

@@ -24,13 +24,13 @@ from core.program.model import Number, Program, Unread
 from core.program.solve.solved import Value
 from core.units import Kind, printable, sentence
 
-CALCULATED: Final = frozenset({Kind.LENGTH, Kind.ANGLE})
+CALCULATOR_KINDS: Final = frozenset({Kind.LENGTH, Kind.ANGLE})
 """The kinds of fields on which the calculator works."""
 
 SOFTKEY_WAIT: Final = 2.0
 """Seconds after Esc in which a digit presses a softkey."""
 OLD_VALUE: Final = "The old number is back. Esc again, then 1 to 8, is a softkey."
-ARMED: Final = "1 to 8 press the softkey now, as F1 to F8 do."
+ARMED_PROMPT: Final = "1 to 8 press the softkey now, as F1 to F8 do."
 
 
 class FormScreen(BaseScreen):
@@ -264,7 +264,7 @@ class FormScreen(BaseScreen):
         self._armed = self.focused
         if isinstance(self.focused, NumberField):
             self.focused.softkey_digits = True
-        self.say(ARMED)
+        self.say(ARMED_PROMPT)
         self.set_timer(SOFTKEY_WAIT, self.disarm)
 
     @property
@@ -278,7 +278,7 @@ class FormScreen(BaseScreen):
         if isinstance(self._armed, NumberField):
             self._armed.softkey_digits = False
         self._armed = None
-        if self.said is not None and self.said.text == ARMED:
+        if self.said is not None and self.said.text == ARMED_PROMPT:
             self.quiet()
 
     @property
@@ -318,7 +318,7 @@ class FormScreen(BaseScreen):
     def action_calculator(self) -> None:
         """Open the calculator for the field with the cursor; in a text field, type the equals sign."""
         field, widget = self.current_field, self.current
-        if isinstance(widget, NumberField) and field is not None and field.kind in CALCULATED:
+        if isinstance(widget, NumberField) and field is not None and field.kind in CALCULATOR_KINDS:
             self._calculate(field, widget)
         elif isinstance(widget, NumberField) and field is not None and field.kind is Kind.TEXT:
             widget.insert_text_at_cursor("=")

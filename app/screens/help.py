@@ -22,7 +22,7 @@ from app.widgets.status import Status
 from core.program.fields import Field, range_of
 from core.units import Kind, Unit
 
-TAKES: Final = {
+TEXT_OF_KIND: Final = {
     Kind.LENGTH: "A number, a fraction (1 1/2), a sum (2.5-.125, 25.4/2), or another unit (12.7mm, .5in).",
     Kind.FEED: "A number in program units a minute, or another unit (500mm, 20in).",
     Kind.ANGLE: "Degrees, counterclockwise from +X.",
@@ -30,7 +30,7 @@ TAKES: Final = {
     Kind.PERCENT: "A percentage.",
 }
 """What a field of each kind takes."""
-WORDS: Final[tuple[tuple[str, str], ...]] = (
+EXPLAINED_WORDS: Final[tuple[tuple[str, str], ...]] = (
     ("GOUGE", "the cutter takes material that belongs to the part: shaded, ! at the deepest place"),
     ("UNCUT", "material that stays on the wall because the cutter does not reach it: thick wall, shaded"),
     ("DELETED", "segments that the look-ahead leaves out: dotted, x where their neighbors meet"),
@@ -45,7 +45,7 @@ WORDS: Final[tuple[tuple[str, str], ...]] = (
     ("*", "after the file's name: not saved"),
 )
 """Words and signs on the screens, with their meanings."""
-KEYS: Final[tuple[tuple[str, str], ...]] = (
+EXPLAINED_KEYS: Final[tuple[tuple[str, str], ...]] = (
     ("Enter", "take the field and go on"),
     ("Tab, up, down", "from field to field"),
     ("Space", "the list of this field: tools, choices, look-ahead values"),
@@ -106,7 +106,9 @@ class HelpScreen(BaseScreen):
         if self._field is not None:
             about = [*field_help(self._field, self.host.session.program.unit), *about]
         head = [Content.styled(line, "bold" if number == 0 else "") for number, line in enumerate(about)]
-        return Content("\n").join([*head, Content(""), *_table(WORDS, width), Content(""), *_table(KEYS, width)])
+        return Content("\n").join(
+            [*head, Content(""), *_table(EXPLAINED_WORDS, width), Content(""), *_table(EXPLAINED_KEYS, width)]
+        )
 
     def action_page_down(self) -> None:
         """Scroll to the next page."""
@@ -137,8 +139,8 @@ def field_help(field: Field, unit: Unit) -> tuple[str, ...]:
         lines.append(topic.words)
     if field.choices:
         lines.append(f"Choices: {', '.join(field.choices)}. Space lists, left and right step; letters spell one.")
-    elif field.kind in TAKES:
-        lines.append(TAKES[field.kind])
+    elif field.kind in TEXT_OF_KIND:
+        lines.append(TEXT_OF_KIND[field.kind])
     if taken := range_of(field, unit):
         lines.append(f"{taken[0].upper()}{taken[1:]}.")
     return (*lines, *(topic.picture if topic is not None else ()))

@@ -35,7 +35,7 @@ from app.widgets.option_rows import TypedLetters
 from app.widgets.plain import PlainText
 from app.widgets.row_table import RowTable
 from app.widgets.softkeys import Softkey
-from app.widgets.verdict import MARKS, verdict_word
+from app.widgets.verdict import MARKS_OF_CHARACTERS, verdict_word
 from core.program.file.read import StoreError
 
 COLUMNS: Final = (("PROGRAM", 17), ("CHANGED", 11), ("BLK", 3), ("TOOLS", 6), ("VERDICT", 12))
@@ -144,7 +144,11 @@ class HomeScreen(BaseScreen):
             return name, Content(day_of(changed, self.host.now())), Content(""), Content(""), Content(each.copy.word)
         facts = self.facts.get(each.path, Facts(each.path))
         day = "example" if each.example else "" if facts.changed is None else day_of(facts.changed, self.host.now())
-        verdict = Content("...") if facts.outcome is None else verdict_word(facts.outcome, MARKS[self.host.characters])
+        verdict = (
+            Content("...")
+            if facts.outcome is None
+            else verdict_word(facts.outcome, MARKS_OF_CHARACTERS[self.host.characters])
+        )
         return name, Content(day), Content(f"{facts.blocks:>3}"), Content(facts.tools), verdict
 
     @work(exclusive=True, group="survey")

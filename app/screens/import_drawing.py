@@ -35,7 +35,7 @@ from app.widgets.contour_table import ContourTable
 from app.widgets.drawing import LOOK_KEYS, Drawing
 from app.widgets.plain import PlainLabel, PlainText
 from app.widgets.softkeys import Softkey
-from app.widgets.status import UNITS, Status
+from app.widgets.status import SPACED_UNITS, Status
 from core.controls.program_text import quoted
 from core.draw.characters import Mode
 from core.draw.view import View
@@ -52,7 +52,7 @@ from core.importing.contour import (
     traveled_like,
 )
 from core.importing.contours import (
-    FIT,
+    FIT_TOLERANCE,
     MAX_TOLERANCE,
     Branch,
     ContourList,
@@ -77,7 +77,7 @@ Result = TypeVar("Result")
 SAME_START: Final = 1e-6
 """Millimeters within which a start counts as the usual one."""
 
-PAUSE: Final = 0.15
+REST_SECONDS: Final = 0.15
 """Seconds that the cursor must rest on a row of a large drawing before the row is drawn."""
 
 MAX_NOTES: Final = 2
@@ -86,8 +86,10 @@ MAX_NOTES: Final = 2
 PROMPT: Final = (
     "Space marks, Enter takes what is marked or the row with the cursor. Right arrow opens a row of several, / filters."
 )
-LARGE: Final = "+ and - zoom, arrows move, 0 shows all, n and p change the chain, Space marks, F7 or Esc: the list."
-STAGES: Final = {
+LARGE_PROMPT: Final = (
+    "+ and - zoom, arrows move, 0 shows all, n and p change the chain, Space marks, F7 or Esc: the list."
+)
+STAGE_NAMES: Final = {
     "reading": "Reading",
     "fitting": "Fitting arcs to curves",
     "cleaning": "Cleaning up",
@@ -187,7 +189,7 @@ class ImportScreen(BaseScreen):
     def show_state_on(self, status: Status) -> None:
         """Show the unit that a new program takes from the drawing, none until it is read; else the open program's."""
         if self._fresh:
-            unit = "" if self.options is None else f" {UNITS[self.unit]} "
+            unit = "" if self.options is None else f" {SPACED_UNITS[self.unit]} "
             status.show(unit, 0, 0, unsaved=False, saved=False, new=bool(unit))
         else:
             super().show_state_on(status)
@@ -284,7 +286,7 @@ class ImportScreen(BaseScreen):
 
     def _tell_progress(self, progress: Progress) -> None:
         percent = 100 * progress.done // max(progress.whole, 1)
-        self._working = f"{STAGES.get(progress.stage, progress.stage)} {self.path.name}  {percent} %   Esc stops."
+        self._working = f"{STAGE_NAMES.get(progress.stage, progress.stage)} {self.path.name}  {percent} %   Esc stops."
         self.said = None
         self.refresh_frame()
 
@@ -373,7 +375,7 @@ class ImportScreen(BaseScreen):
             self._timer.stop()
         is_large = sum(len(contour.pieces) for contour in self._backdrop) > MAX_PIECES
         if is_large:
-            self._timer = self.set_timer(PAUSE, self._draw)
+            self._timer = self.set_timer(REST_SECONDS, self._draw)
         else:
             self._draw()
 
@@ -494,7 +496,7 @@ class ImportScreen(BaseScreen):
                 x, y = (to_mm(value, unit) for value in values)
                 self._change(lambda each: started_at(each, (x, y)), [contour])
         elif word != GO_BACK:
-            self._change(STARTS[word], [contour])
+            self._change(CHANGE_OF_ANSWER[word], [contour])
         self._show_row()
 
     @work(exclusive=True, group="question")
@@ -511,7 +513,7 @@ class ImportScreen(BaseScreen):
             return
         self.say("Fitting arcs.")
         made = await self._in_thread(
-            lambda: [fitted_contour(contour, options.fit or FIT[self.unit]) for contour in contours]
+            lambda: [fitted_contour(contour, options.fit or FIT_TOLERANCE[self.unit]) for contour in contours]
         )
         better = [new for old, new in zip(contours, made, strict=True) if new.drawn < old.drawn]
         if not better:
@@ -542,7 +544,7 @@ class ImportScreen(BaseScreen):
         typed = await self.app.push_screen_wait(NumberForm("TOLERANCE", lines, entries, unit))
         if typed:
             tolerance, fit = (to_mm(value, unit) for value in typed)
-            self._list(replace(options, tolerance=tolerance, fit=fit or FIT[unit]))
+            self._list(replace(options, tolerance=tolerance, fit=fit or FIT_TOLERANCE[unit]))
 
     @work(exclusive=True, group="question")
     async def action_layers(self) -> None:
@@ -702,7 +704,7 @@ class ImportScreen(BaseScreen):
             return Sentence(self._failed, Tone.ERROR)
         if self.has_class("-filtering"):
             return self._filter_prompt()
-        return Sentence(LARGE if self.has_class("-large") else PROMPT)
+        return Sentence(LARGE_PROMPT if self.has_class("-large") else PROMPT)
 
     def _filter_prompt(self) -> Sentence:
         """Return the filter's prompt; warn if no chain matches."""
@@ -735,7 +737,7 @@ START_ANSWERS: Final = (
     Answer("LONGEST", "middle of the longest side"),
     Answer("X Y", "typed"),
 )
-STARTS: Final[dict[str, Callable[[Contour], Contour]]] = {
+CHANGE_OF_ANSWER: Final[dict[str, Callable[[Contour], Contour]]] = {
     "NEXT CORNER": lambda contour: started_at_corner(contour, 1),
     "CORNER BEFORE": lambda contour: started_at_corner(contour, -1),
     "SIDE": lambda contour: started_at_side(contour, 1),

@@ -19,7 +19,7 @@ from app.widgets.drawing import Drawing
 from app.widgets.plain import PlainText
 from app.widgets.row_table import RowTable
 from app.widgets.softkeys import Softkey
-from app.widgets.verdict import MARKS, Marks
+from app.widgets.verdict import MARKS_OF_CHARACTERS, Marks
 from core.program.edit import FormPlace, recalculate_lookahead, type_field
 from core.program.model import Number
 
@@ -75,7 +75,7 @@ class LookaheadScreen(BaseScreen):
         if table is None:
             self._draw(None)
             return
-        marks = MARKS[self.host.characters]
+        marks = MARKS_OF_CHARACTERS[self.host.characters]
         for row in table.rows:
             values.add_row(*_cells(row, table, session, marks))
         if at is None:

@@ -24,8 +24,8 @@ from app.session.work import Work
 from app.widgets.option_rows import OptionRows, control_rows
 from app.widgets.plain import PlainLabel, PlainText
 from app.widgets.softkeys import Softkey
-from app.widgets.status import UNITS
-from app.widgets.verdict import MARKS
+from app.widgets.status import SPACED_UNITS
+from app.widgets.verdict import MARKS_OF_CHARACTERS
 from core.controls.control_names import shown_name
 from core.program.file.read import StoreError
 from core.progress import Stopped
@@ -66,7 +66,7 @@ class PostScreen(EntryScreen):
 
     def compose_head(self) -> ComposeResult:
         """Yield the unit of the file, for the operator who loads it at the machine."""
-        yield PlainLabel(UNITS[self.current_session.program.unit], classes="head-unit")
+        yield PlainLabel(SPACED_UNITS[self.current_session.program.unit], classes="head-unit")
 
     def compose_rest(self) -> ComposeResult:
         """Yield the controls, the findings and the preview."""
@@ -156,7 +156,7 @@ class PostScreen(EntryScreen):
 
     def _findings(self) -> list[Content]:
         """Return what prevents posting, or that all is ready; then what is uncut or deleted, and the notes."""
-        marks, session = MARKS[self.host.characters], self.current_session
+        marks, session = MARKS_OF_CHARACTERS[self.host.characters], self.current_session
         if self.made is None:
             text = "Stopped. Enter makes the NC text." if self.stopped else "The NC text is being made."
             return [Content.styled(text, "$c-label")]

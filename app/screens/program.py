@@ -23,7 +23,7 @@ from app.widgets.drawing import Drawing
 from app.widgets.plain import PlainLabel
 from app.widgets.row_table import RowTable
 from app.widgets.softkeys import Softkey
-from app.widgets.verdict import MARKS, Marks, verdict_word
+from app.widgets.verdict import MARKS_OF_CHARACTERS, Marks, verdict_word
 from core.pipeline.derived import Derived, DerivedBlock
 from core.program.edit import FormPlace, copy_block, delete_block, insert_block, move_block
 from core.program.model import Number, Program
@@ -80,7 +80,7 @@ class ProgramScreen(BaseScreen):
 
     def show_session(self, session: Session) -> None:
         """Show one row per block."""
-        table, marks = self.query_one("#blocks", DataTable), MARKS[self.host.characters]
+        table, marks = self.query_one("#blocks", DataTable), MARKS_OF_CHARACTERS[self.host.characters]
         table.clear()
         for block in session.derived.blocks:
             table.add_row(*_row(block, marks))

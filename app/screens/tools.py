@@ -24,11 +24,11 @@ from core.program.model import Coolant, Number, Program, Tool, Typed
 from core.program.solve.solved import Value
 from core.units import Kind, Unit
 
-AT: Final = "@"
+NAME_SEPARATOR: Final = "@"
 """Separates the field's name from the tool's row in the name of a widget."""
 HEADINGS: Final = {"diameter": "DIAMETER", "speed": "SPEED", "plunge_feed": "PLUNGE"}
 """Column headings for fields whose label is too wide."""
-EMPTY: Final = "The tool table is empty. F2 adds a tool."
+EMPTY_PROMPT: Final = "The tool table is empty. F2 adds a tool."
 
 
 class ToolRow(Horizontal):
@@ -46,7 +46,7 @@ class ToolRow(Horizontal):
                 if cell.choices
                 else NumberField(cell.name, cell.text, cell.full)
             )
-            widget.add_class(f"tool-{cell.name.partition(AT)[0]}", cell.state)
+            widget.add_class(f"tool-{cell.name.partition(NAME_SEPARATOR)[0]}", cell.state)
             yield widget
 
     def field(self, name: str) -> NumberField | ChoiceField | None:
@@ -79,7 +79,7 @@ class ToolsScreen(FormScreen):
         Binding("escape", "leave", "Back", show=False),
     ]
     SOFTKEYS: ClassVar[tuple[Softkey | None, ...]] = (
-        Softkey("DELETE TOOL", "delete_tool", "DELETE", lambda screen: screen.tool is not None, EMPTY),
+        Softkey("DELETE TOOL", "delete_tool", "DELETE", lambda screen: screen.tool is not None, EMPTY_PROMPT),
         Softkey("ADD TOOL", "add_tool", "ADD"),
         Softkey("IMPORT TABLE", "app.import_tools", "IMPORT"),
         None,
@@ -99,7 +99,7 @@ class ToolsScreen(FormScreen):
                     yield PlainLabel(HEADINGS.get(field.name, field.label), classes=f"tool-{field.name}")
             with VerticalScroll(id="tool-rows", can_focus=False):
                 yield from self._rows(self.host.session)
-                yield PlainText(EMPTY, id="no-tools")
+                yield PlainText(EMPTY_PROMPT, id="no-tools")
         yield PlainText(id="tool-use")
 
     def _rows(self, session: Session) -> list[ToolRow]:
@@ -115,7 +115,7 @@ class ToolsScreen(FormScreen):
     def fields(self) -> tuple[Field, ...]:
         """Return the fields of every tool, each with its row in its name."""
         rows = range(len(self.current_session.program.tools))
-        return tuple(replace(field, name=f"{field.name}{AT}{row}") for row in rows for field in TOOL)
+        return tuple(replace(field, name=f"{field.name}{NAME_SEPARATOR}{row}") for row in rows for field in TOOL)
 
     def widget(self, name: str) -> NumberField | ChoiceField | None:
         """Return the widget with this name."""
@@ -126,7 +126,7 @@ class ToolsScreen(FormScreen):
     def value(self, name: str) -> Value | str:
         """Return what a tool has in a field."""
         tools, row = self.current_session.program.tools, _row(name)
-        return _value(tools[row], name.partition(AT)[0]) if row < len(tools) else None
+        return _value(tools[row], name.partition(NAME_SEPARATOR)[0]) if row < len(tools) else None
 
     def may_be_blank(self, field: Field, /) -> bool:
         """Return True for TYPE and COOLANT, which a tool may leave blank."""
@@ -193,7 +193,7 @@ class ToolsScreen(FormScreen):
 
     def _focus_row(self, row: int, name: str = TOOL[0].name) -> None:
         if row >= 0:
-            self.focus_field(f"{name}{AT}{row}")
+            self.focus_field(f"{name}{NAME_SEPARATOR}{row}")
         self._show_use()
 
     def action_row(self, by: int) -> None:
@@ -202,7 +202,7 @@ class ToolsScreen(FormScreen):
         count = len(self.current_session.program.tools)
         if not count or not self.take():
             return
-        name = (self.current.name or "").partition(AT)[0] if self.current is not None else TOOL[0].name
+        name = (self.current.name or "").partition(NAME_SEPARATOR)[0] if self.current is not None else TOOL[0].name
         self._focus_row((self.row + by) % count, name)
 
     def action_accept(self) -> None:
@@ -250,16 +250,18 @@ class ToolsScreen(FormScreen):
 
     def prompt_text(self) -> Sentence:
         """Return what the field takes, or for an empty table how to begin."""
-        return super().prompt_text() if self.current_session.program.tools else Sentence(EMPTY, Tone.WARNING)
+        return super().prompt_text() if self.current_session.program.tools else Sentence(EMPTY_PROMPT, Tone.WARNING)
 
 
 def _row(name: str) -> int:
-    return int(name.partition(AT)[2] or 0)
+    return int(name.partition(NAME_SEPARATOR)[2] or 0)
 
 
 def _cells(tool: Tool, row: int, session: Session) -> tuple[Cell, ...]:
     cells = (cell_of(field, _value(tool, field.name), session.program.unit, 0) for field in TOOL)
-    return tuple(replace(cell, name=f"{cell.name}{AT}{row}", state=_tool_state(cell.state)) for cell in cells)
+    return tuple(
+        replace(cell, name=f"{cell.name}{NAME_SEPARATOR}{row}", state=_tool_state(cell.state)) for cell in cells
+    )
 
 
 def _tool_state(state: State) -> State:
@@ -275,7 +277,7 @@ def _value(tool: Tool, name: str) -> Value | str:
 
 
 def _typed(program: Program, tool: Tool, field: Field, text: str) -> Edited:
-    name = field.name.partition(AT)[0]
+    name = field.name.partition(NAME_SEPARATOR)[0]
     if name == "number":
         return _renumbered(program, tool, read_typed(text, field, program.unit))
     plain = field.kind in (Kind.TEXT, Kind.CHOICE)

@@ -7,7 +7,7 @@ from dataclasses import dataclass
 from types import MappingProxyType
 from typing import Final
 
-from core.program.fields import SOLUTION, TABLES, Field, Form
+from core.program.fields import FIELDS_OF_FORM, SOLUTION, Field, Form
 
 
 @dataclass(frozen=True, slots=True)
@@ -176,7 +176,7 @@ TOPICS: Final[Mapping[tuple[Form, str], Topic]] = MappingProxyType(
 
 def topic_of(field: Field) -> Topic | None:
     """Return the topic of a field, or None if it has none."""
-    for form, table in TABLES.items():
+    for form, table in FIELDS_OF_FORM.items():
         for known in (*table, SOLUTION):
             if known == field and (form, field.name) in TOPICS:
                 return TOPICS[form, field.name]

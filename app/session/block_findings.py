@@ -33,11 +33,11 @@ class Kind(IntEnum):
 
 TO_TYPE: Final = frozenset({"MISSING", "NO_SEGMENTS"})
 """Errors that only say that something is still to be typed."""
-WAITS: Final = TO_TYPE | {"NOT_YET"}
+WAITING_CODES: Final = TO_TYPE | {"NOT_YET"}
 """Errors that the prompt reports: something is still to be typed, or a run waits for more values."""
-GOUGING: Final = frozenset({"GOUGE", "ROUGH_GOUGES", "BLEND_GOUGES", "WRONG_SIDE"})
+GOUGE_CODES: Final = frozenset({"GOUGE", "ROUGH_GOUGES", "BLEND_GOUGES", "WRONG_SIDE"})
 """Errors that mean damage to the part."""
-REMEDIES: Final = frozenset(
+REMEDY_CODES: Final = frozenset(
     {"BLENDLESS", "START_MID_SIDE", "START_BLENDLESS", "START_AT_END", "TOOL_FITS", "TOOL_BLENDLESS"}
 )
 """Advice that has been tried and gives a clean path."""
@@ -91,9 +91,9 @@ def remedy(table: Table | None, field: str, unit: Unit) -> str:
 def _kind(finding: Finding) -> Kind:
     if finding.code in TO_TYPE:
         return Kind.TO_TYPE
-    if finding.code in GOUGING:
+    if finding.code in GOUGE_CODES:
         return Kind.GOUGE
-    if finding.code in REMEDIES:
+    if finding.code in REMEDY_CODES:
         return Kind.REMEDY
     return Kind.UNCUT if finding.code == "UNCUT" else _KINDS[finding.severity]
 

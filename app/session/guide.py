@@ -15,7 +15,7 @@ from app.session.session import Session
 from core.program.fields import Form, field_of, form_of
 from core.program.model import CutterComp, LineSegment, Number
 
-CORNERS: Final = (("0", "0"), ("0", "1"), ("2", "1"), ("2", "0"), ("1", "0"))
+EXAMPLE_CORNERS: Final = (("0", "0"), ("0", "1"), ("2", "1"), ("2", "0"), ("1", "0"))
 """The end points of the five lines."""
 SAVE_NAME: Final = "Type a name such as plate, then Enter. Without a folder it goes where you started the program."
 POST_NAME: Final = "Enter writes the NC file under the name that stands there."
@@ -43,11 +43,16 @@ STEPS: Final = (
     Step(0, "plunge_feed", "5", "The tool goes down into the material at this feed."),
     Step(0, "speed", "1000", "The spindle turns so many times a minute."),
     Step(1, "feed", "10", "The feed holds for the segments that follow too."),
-    Step(1, "x_end", CORNERS[0][0], "First to the left corner."),
-    Step(1, "y_end", CORNERS[0][1], "It lies on Y 0 too."),
+    Step(1, "x_end", EXAMPLE_CORNERS[0][0], "First to the left corner."),
+    Step(1, "y_end", EXAMPLE_CORNERS[0][1], "It lies on Y 0 too."),
     *(
-        Step(number, name, text, f"Corner {number} of the plate." if number < len(CORNERS) else "Back to the start.")
-        for number, corner in enumerate(CORNERS[1:], 2)
+        Step(
+            number,
+            name,
+            text,
+            f"Corner {number} of the plate." if number < len(EXAMPLE_CORNERS) else "Back to the start.",
+        )
+        for number, corner in enumerate(EXAMPLE_CORNERS[1:], 2)
         for name, text in zip(("x_end", "y_end"), corner, strict=True)
     ),
 )
@@ -92,7 +97,7 @@ def on_form(session: Session, names: Sequence[str], at: str, stop: str | None) -
     if place.block != 1:
         return "The plate is in block 1: F8 goes to the list of blocks."
     if step.segment > len(block.segments):
-        return f"{len(block.segments)} of {len(CORNERS)} sides stand. Ctrl+End, then Page Down adds a LINE."
+        return f"{len(block.segments)} of {len(EXAMPLE_CORNERS)} sides stand. Ctrl+End, then Page Down adds a LINE."
     held = block.segments[step.segment - 1] if step.segment else None
     wrong = _mismatch(session, step)
     if place.segment != step.segment:

@@ -53,14 +53,14 @@ def nc_text(
     `name` is the file's name; `override` is the phrase the operator typed to post a path that gouges.
     """
     from core.output.nc import Posted
-    from core.output.objections import OVERRIDABLE, OVERRIDE
+    from core.output.objections import OVERRIDABLE_CODES, OVERRIDE_PHRASE
     from core.pipeline.derive import derive
     from core.pipeline.post import post_center_path, post_control_program
     from core.pipeline.unit_question import unit_question
 
     derived, unit = derive(program, progress), program.unit
     if choice == CENTER_PATH:
-        result = post_center_path(derived, name=name, override=OVERRIDE if override else None)
+        result = post_center_path(derived, name=name, override=OVERRIDE_PHRASE if override else None)
     else:
         result = post_control_program(derived, name=name, control=choice)
     asked = unit_question(derived)
@@ -69,7 +69,7 @@ def nc_text(
         remarks = (*_warnings(derived), *result.notes)
         return NcText(result.text, notes=(*notes, *(located_sentence(note, unit) for note in remarks)))
     against, remedies = refusals(derived, result)
-    overridable = choice == CENTER_PATH and all(finding.code in OVERRIDABLE for finding in result.findings)
+    overridable = choice == CENTER_PATH and all(finding.code in OVERRIDABLE_CODES for finding in result.findings)
     return NcText(against=against, notes=(*remedies, *notes), overridable=overridable)
 
 

@@ -19,7 +19,7 @@ from core.program.model import Block, Program, Segment
 if TYPE_CHECKING:
     from core.advice.lookahead_table import Table
 
-SEGMENT: Final = "segment"
+SEGMENT_FIELD: Final = "segment"
 """The name of the SEGMENT line, on which the cursor steps from segment to segment."""
 
 START_OF_FIRST_BLOCK: Final = FormPlace(1, 0)
@@ -33,7 +33,7 @@ class Cursor:
     """
 
     place: FormPlace = START_OF_FIRST_BLOCK
-    field: str | None = SEGMENT
+    field: str | None = SEGMENT_FIELD
 
 
 @dataclass(frozen=True, eq=False, slots=True)
@@ -72,7 +72,7 @@ class Session:
         look_only: bool = False,
     ) -> Session:
         """Return a session with a history and the cursor where it was; in a new program, on its first field."""
-        if field == SEGMENT and not history.past:
+        if field == SEGMENT_FIELD and not history.past:
             field = _first_field(history.program)
         cursor = Cursor(nearest_place(history.program, place), field)
         derived = solve_fields(history.program)
@@ -137,7 +137,7 @@ class Session:
         """Return the session with one edit redone and the cursor on what it changes."""
         return self._moved_to_change(self.history.redo())
 
-    def at(self, place: FormPlace, field: str | None = SEGMENT) -> Session:
+    def at(self, place: FormPlace, field: str | None = SEGMENT_FIELD) -> Session:
         """Return the session with the cursor moved to a place, or to the nearest one that exists."""
         return replace(self, cursor=Cursor(nearest_place(self.program, place), field))
 
@@ -169,7 +169,7 @@ class Session:
     def _moved_to_change(self, history: History) -> Session:
         place = changed(self.program, history.program)
         session = self._with_history(history)
-        return session if place is None else session.at(place[0], place[1] or SEGMENT)
+        return session if place is None else session.at(place[0], place[1] or SEGMENT_FIELD)
 
     def _with_history(self, history: History) -> Session:
         if history is self.history:
@@ -183,7 +183,7 @@ class Session:
 def _first_field(program: Program) -> str:
     """Return the field where the cursor starts: TOOL in a new program, else SEGMENT."""
     new = len(program.blocks) == 1 and not program.blocks[0].segments and program.blocks[0].x_start is None
-    return "tool" if new else SEGMENT
+    return "tool" if new else SEGMENT_FIELD
 
 
 def nearest_place(program: Program, place: FormPlace) -> FormPlace:

@@ -14,7 +14,7 @@ from app.terminal.key_order import KeyOrder
 
 LARGEST_QUEUE: Final = 1000
 """The most messages from the page that wait here; further ones wait in the pipe, and then in the page."""
-TURN: Final = 0.01
+CHECK_SECONDS: Final = 0.01
 """Seconds between two checks for room."""
 
 
@@ -35,7 +35,7 @@ class BrowserDriver(WebDriver):
     def send_message(self, message: Message) -> None:
         """Pass a message from the page to the App in its turn; runs in the reader thread and waits for room."""
         while self._sent - self._taken + len(self.keys.waiting) >= LARGEST_QUEUE:
-            if self.exit_event.wait(TURN):
+            if self.exit_event.wait(CHECK_SECONDS):
                 return
         self._sent += 1
         self._loop.call_soon_threadsafe(self._take, message)

@@ -19,17 +19,17 @@ from typing import Final, NamedTuple
 
 from rich.cells import cell_len
 
-from app.terminal.fewer_bytes import PLAIN, SHOWN_ON_BLANKS, TOKEN, Pen, Style, alike_on_blanks, read, slim
+from app.terminal.fewer_bytes import PLAIN_STYLE, SHOWN_ON_BLANKS, TOKEN, Pen, Style, alike_on_blanks, read, slim
 
 NEUTRAL: Final = re.compile(
     r"(?:\x1b\[\?(?:7|25|1000|1003|1004|1006|1015|1016|2004|2026|2048)(?:h|l|\$p)|\x1b\]22;[^\x07\x1b]*(?:\x07|\x1b\\)|\x07)*"
 )
 """Sequences that leave all cells as they are."""
 PLACE: Final = re.compile(r"\x1b\[([0-9]+);([0-9]+)H")
-HOME: Final = "\x1b[H"
+CURSOR_HOME: Final = "\x1b[H"
 ERASE_LINE: Final = "\x1b[K"
 """Erases to the end of the line."""
-SHORTEST: Final = 5
+MIN_ERASED_BLANKS: Final = 5
 """The fewest blanks that are erased instead of written."""
 
 
@@ -106,7 +106,7 @@ class Shown:
             self.lines[row] = line
         writer.move(*cursor)
         self.cursor = cursor
-        writer.pen.turn(PLAIN)
+        writer.pen.turn(PLAIN_STYLE)
         return "".join(writer.pen.out)
 
     def _drop_known(self) -> None:
@@ -155,7 +155,7 @@ _styled: Final = lru_cache(256)(Cells)
 
 def neighbors(line: Line, columns: list[int]) -> Iterator[tuple[int, str, Style]]:
     """Yield the cells in these columns: adjacent ones in one style as one text, with its first column."""
-    first, text, style, next_column = 0, "", PLAIN, -1
+    first, text, style, next_column = 0, "", PLAIN_STYLE, -1
     for column in columns:
         cell = line[column]
         assert cell is not None
@@ -173,7 +173,7 @@ def neighbors(line: Line, columns: list[int]) -> Iterator[tuple[int, str, Style]
 def parsed(data: str, columns: int, rows: int) -> Picture | None:
     """Return the picture that a text paints; None if it does anything else or leaves the terminal's area."""
     # text before the first cursor position would go wherever the cursor is
-    picture, style, row, column = Picture(), PLAIN, rows, 0
+    picture, style, row, column = Picture(), PLAIN_STYLE, rows, 0
     for parameters, place, other, text in TOKEN.findall(data):
         if text:
             if row >= rows or column + len(text) > columns or not single(text):
@@ -187,7 +187,7 @@ def parsed(data: str, columns: int, rows: int) -> Picture | None:
         elif other:
             return None
         else:
-            style = PLAIN if parameters in ("", "0") else read(parameters)
+            style = PLAIN_STYLE if parameters in ("", "0") else read(parameters)
     picture.cursor = row, column
     return picture if row < rows and column < columns else None
 
@@ -211,8 +211,8 @@ class _CellWriter:
         if old[0] is None:
             old = self._erase_unknown(row, new)
         changed = list(compress(range(len(new)), map(ne, old, new)))
-        tail = self._tail(new) if len(changed) >= SHORTEST else len(new)
-        erased = len(changed) >= SHORTEST and changed[-SHORTEST] >= tail
+        tail = self._tail(new) if len(changed) >= MIN_ERASED_BLANKS else len(new)
+        erased = len(changed) >= MIN_ERASED_BLANKS and changed[-MIN_ERASED_BLANKS] >= tail
         written = [column for column in changed if column < tail] if erased else changed
         for column, text, style in neighbors(new, written):
             self._reach(row, column, new)
@@ -225,7 +225,7 @@ class _CellWriter:
         """Move the cursor to a cell with the shortest sequence."""
         if self.cursor == (row, column):
             return
-        sequences = [HOME if (row, column) == (0, 0) else f"\x1b[{row + 1}{f';{column + 1}' if column else ''}H"]
+        sequences = [CURSOR_HOME if (row, column) == (0, 0) else f"\x1b[{row + 1}{f';{column + 1}' if column else ''}H"]
         if self.cursor is not None and self.cursor[0] == row and column > self.cursor[1]:
             steps = column - self.cursor[1]
             sequences.append(f"\x1b[{steps if steps > 1 else ''}C")
@@ -276,4 +276,4 @@ class _CellWriter:
         self.pen.out.append(ERASE_LINE)
 
     def _erasable(self, style: Style) -> bool:
-        return self.erases or style.paper == PLAIN.paper
+        return self.erases or style.paper == PLAIN_STYLE.paper

@@ -18,14 +18,14 @@ UTF_8: Final = "utf-8"
 ASCII: Final = "ascii"
 LATIN_1: Final = "iso8859-1"
 """The character set of a locale without one in its name, such as de_DE."""
-VARIABLES: Final = ("LC_ALL", "LC_CTYPE", "LANG")
+LOCALE_VARIABLES: Final = ("LC_ALL", "LC_CTYPE", "LANG")
 """The first of these that is not empty names the locale."""
-COERCED: Final = ("C.UTF-8", "C.utf8", "UTF-8")
+COERCED_LOCALES: Final = ("C.UTF-8", "C.utf8", "UTF-8")
 """What Python may set LC_CTYPE to if it is C or a locale that is not installed (PEP 538)."""
 STARTED_WITH: Final = Path("/proc/self/environ")
 """The environment with which the program was started, on Linux."""
 LOOKALIKES: Final = str.maketrans("│┃─━├┤▀▄█…→↗↑↖←↙↓↘▲▼▶◀✓✖×•·", '||--||"_#~>>^<<<v>^v><+!x..')
-ERRORS: Final = "cutcomp.lookalike"
+LOOKALIKE_ERRORS: Final = "cutcomp.lookalike"
 FIRST_FRAME, LAST_FRAME, LAST_BLOCK = "\u2500", "\u257f", "\u259f"
 FIRST_BRAILLE, LAST_BRAILLE = "\u2801", "\u28ff"
 
@@ -47,17 +47,17 @@ def own(
 
     If the system does not show it, `C.UTF-8` and `C.utf8` count as Python's, unless PYTHONCOERCECLOCALE is 0.
     """
-    if environment.get("LC_ALL") or environment.get("LC_CTYPE") not in COERCED:
+    if environment.get("LC_ALL") or environment.get("LC_CTYPE") not in COERCED_LOCALES:
         return environment
     if (before := started()) is not None:
         return {**environment, "LC_CTYPE": before.get("LC_CTYPE", "")}
-    chosen = environment["LC_CTYPE"] == COERCED[-1] or environment.get("PYTHONCOERCECLOCALE") == "0"
+    chosen = environment["LC_CTYPE"] == COERCED_LOCALES[-1] or environment.get("PYTHONCOERCECLOCALE") == "0"
     return environment if chosen else {**environment, "LC_CTYPE": ""}
 
 
 def charset(environment: Mapping[str, str]) -> str:
     """Return the name, as Python knows it, of the character set that the terminal takes."""
-    name = next((environment[variable] for variable in VARIABLES if environment.get(variable)), "C")
+    name = next((environment[variable] for variable in LOCALE_VARIABLES if environment.get(variable)), "C")
     if name in ("C", "POSIX"):
         return ASCII
     locale = name.partition("@")[0]
@@ -98,6 +98,6 @@ def _stand_in(error: UnicodeError) -> tuple[str, int]:
 
 def settle(stream: TextIO | None, name: str) -> None:
     """Make a stream write this character set; others become one ASCII character each instead of an error."""
-    codecs.register_error(ERRORS, _stand_in)
+    codecs.register_error(LOOKALIKE_ERRORS, _stand_in)
     if stream is not None and hasattr(stream, "reconfigure"):
-        stream.reconfigure(encoding=name, errors=ERRORS)
+        stream.reconfigure(encoding=name, errors=LOOKALIKE_ERRORS)

@@ -25,21 +25,33 @@ from app.terminal.capabilities import ascii_only
 from app.terminal.cell_diff import Shown
 from app.terminal.character_set import ASCII, UTF_8, charset
 from app.terminal.key_order import KeyOrder
-from app.terminal.split_keys import TOLD, Joined, delay
+from app.terminal.split_keys import KEY_WARNINGS, Joined, delay
 
 if TYPE_CHECKING:
     from textual.app import App
 
-MODES: Final = ("braille", "block", "ascii")
+CHARACTER_SETS: Final = ("braille", "block", "ascii")
 """The character sets of drawings."""
-PATIENCE: Final = 0.1
+CHECK_SECONDS: Final = 0.1
 """Seconds between two checks for the end of the program."""
 LARGEST_READ: Final = 4096
-UNFIT: Final = ("dumb", "unknown", "")
+UNFIT_TERMS: Final = ("dumb", "unknown", "")
 """Values of TERM for terminals that cannot position the cursor."""
-ERASING: Final = ("xterm", "putty", "linux", "rxvt", "alacritty", "kitty", "foot", "wezterm", "konsole", "vte", "gnome")
+ERASING_TERMS: Final = (
+    "xterm",
+    "putty",
+    "linux",
+    "rxvt",
+    "alacritty",
+    "kitty",
+    "foot",
+    "wezterm",
+    "konsole",
+    "vte",
+    "gnome",
+)
 """How TERM begins if erased cells take the color in force; other terminals use their own background."""
-PLAIN: Final = ("linux", "vt1", "vt2")
+PLAIN_TERMS: Final = ("linux", "vt1", "vt2")
 """How TERM begins if the terminal may show a control sequence with a $ in it."""
 
 
@@ -54,7 +66,7 @@ class TerminalDriver(LinuxDriver):
         self, app: App[Any], *, debug: bool = False, mouse: bool = True, size: tuple[int, int] | None = None
     ) -> None:
         super().__init__(app, debug=debug, mouse=mouse, size=size)
-        self.shown = Shown(self._get_terminal_size, os.environ.get("TERM", "").startswith(ERASING))
+        self.shown = Shown(self._get_terminal_size, os.environ.get("TERM", "").startswith(ERASING_TERMS))
         self.suspended = False
         self.keys = KeyOrder(app)
 
@@ -116,7 +128,7 @@ class TerminalDriver(LinuxDriver):
 
     def _request_terminal_sync_mode_support(self) -> None:
         """Send the query, except to terminals that may show the end of it as a letter."""
-        if not os.environ.get("TERM", "").startswith(PLAIN):
+        if not os.environ.get("TERM", "").startswith(PLAIN_TERMS):
             super()._request_terminal_sync_mode_support()
 
     def _query_in_band_window_resize(self) -> None:
@@ -127,7 +139,7 @@ class TerminalDriver(LinuxDriver):
         parser, joined = XTermParser(self._debug), Joined(ANSI_SEQUENCES_KEYS, delay(os.environ))
         decode = getincrementaldecoder(typed_in())(errors="replace").decode
         while not self.exit_event.is_set():
-            patience = PATIENCE if joined.due is None else min(PATIENCE, max(joined.due - monotonic(), 0.0))
+            patience = CHECK_SECONDS if joined.due is None else min(CHECK_SECONDS, max(joined.due - monotonic(), 0.0))
             # bytes that are there at the time of a check belong together, however late this thread had its turn
             if select.select([self.fileno], [], [], patience)[0]:
                 data = read(self.fileno)
@@ -168,7 +180,7 @@ def take_mouse(app: App[Any], wanted: bool) -> None:
 
 def messages(parser: XTermParser, key: str) -> Iterator[Message]:
     """Yield what Textual's parser makes of a whole key; an unknown key sequence gives nothing, never text."""
-    if key in TOLD:
+    if key in KEY_WARNINGS:
         yield events.Key(key, None)
         return
     yield from parser.feed(key)
@@ -212,7 +224,7 @@ def refusal(environment: Mapping[str, str]) -> str:
             "the screens need a terminal, and here is none. Start it in a terminal window, or see the commands "
             "without a screen: cutcomp --help"
         )
-    if environment.get("TERM", "") in UNFIT:
+    if environment.get("TERM", "") in UNFIT_TERMS:
         return (
             f"the terminal says TERM={environment.get('TERM', '')}, which cannot place a cursor. Set TERM to what it "
             "is, such as TERM=xterm or TERM=vt100, and start again."
@@ -221,17 +233,17 @@ def refusal(environment: Mapping[str, str]) -> str:
 
 
 def characters(environment: Mapping[str, str], wanted: str = "") -> tuple[str, tuple[str, ...]]:
-    """Return the character set to write, and the MODES that drawings can use, the one to begin with first.
+    """Return the character set to write, and the sets that drawings can use, the one to begin with first.
 
     `wanted` is the operator's choice, which overrides the environment.  The fonts of the Linux console have no
     braille; a VT100 has no UTF-8 at all.
     """
-    name = UTF_8 if wanted in MODES[:-1] else charset(environment)
-    if wanted not in MODES[:-1] and name == UTF_8 and ascii_only(environment):
+    name = UTF_8 if wanted in CHARACTER_SETS[:-1] else charset(environment)
+    if wanted not in CHARACTER_SETS[:-1] and name == UTF_8 and ascii_only(environment):
         name = ASCII
     if name != UTF_8:
-        return name, MODES[-1:]
-    console = environment.get("TERM", "").startswith("linux") and wanted != MODES[0]
-    able = MODES[1:] if console else MODES
+        return name, CHARACTER_SETS[-1:]
+    console = environment.get("TERM", "").startswith("linux") and wanted != CHARACTER_SETS[0]
+    able = CHARACTER_SETS[1:] if console else CHARACTER_SETS
     first = able.index(wanted) if wanted else 0
     return name, (*able[first:], *able[:first])

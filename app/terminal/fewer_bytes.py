@@ -28,7 +28,7 @@ class Style(NamedTuple):
     paper: str = "49"
 
 
-PLAIN: Final = Style()
+PLAIN_STYLE: Final = Style()
 SHOWN_ON_BLANKS: Final = frozenset({"4", "7", "9", "21", "53"})
 """Attributes that show on a blank: underlines, reverse, strikethrough, overline."""
 
@@ -36,7 +36,7 @@ SHOWN_ON_BLANKS: Final = frozenset({"4", "7", "9", "21", "53"})
 @lru_cache(256)
 def read(parameters: str) -> Style:
     """Return the style that a sequence's parameters give after a reset."""
-    attributes, ink, paper = set(), PLAIN.ink, PLAIN.paper
+    attributes, ink, paper = set(), PLAIN_STYLE.ink, PLAIN_STYLE.paper
     rest = parameters.split(";")
     while rest:
         number = rest.pop(0)
@@ -58,9 +58,9 @@ def change(now: Style, then: Style) -> str:
     """Return the shortest sequence that changes one style into another."""
     if now == then:
         return ""
-    if then == PLAIN:
+    if then == PLAIN_STYLE:
         return "\x1b[0m"
-    lists = ["0", *_added(PLAIN, then)], _added(now, then)
+    lists = ["0", *_added(PLAIN_STYLE, then)], _added(now, then)
     return min((f"\x1b[{';'.join(codes)}m" for codes in lists[: 1 if now.attributes - then.attributes else 2]), key=len)
 
 
@@ -79,7 +79,7 @@ def alike_on_blanks(now: Style, then: Style) -> bool:
 def slim(data: str) -> str:
     """Return a shorter text with the same effect on the terminal; it begins and ends in plain style."""
     pen = Pen()
-    wanted = PLAIN
+    wanted = PLAIN_STYLE
     for style, place, other, text in TOKEN.findall(data):
         if text:
             pen.write(text, wanted)
@@ -89,8 +89,8 @@ def slim(data: str) -> str:
             pen.turn(wanted)
             pen.out.append(other)
         else:
-            wanted = PLAIN if style in ("", "0") else read(style)
-    pen.turn(PLAIN)
+            wanted = PLAIN_STYLE if style in ("", "0") else read(style)
+    pen.turn(PLAIN_STYLE)
     return "".join(pen.out)
 
 
@@ -98,7 +98,7 @@ def slim(data: str) -> str:
 class Pen:
     """What goes to the terminal, and the style in force."""
 
-    now: Style = PLAIN
+    now: Style = PLAIN_STYLE
     out: list[str] = field(default_factory=list)
 
     def has(self, text: str, wanted: Style) -> bool:

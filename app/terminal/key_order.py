@@ -16,7 +16,7 @@ from textual.app import App
 from textual.message import Message
 from textual.message_pump import MessagePump
 
-LOOK: Final = 0.1
+CHECK_SECONDS: Final = 0.1
 """Seconds between two checks on the progress of a key."""
 MAX_LOOKS: Final = 10
 """Checks in a row without progress after which a key is given up: a removed widget never answers.  One check schedules
@@ -68,7 +68,7 @@ class KeyOrder:
         if still == MAX_LOOKS:
             self.send_next()
         else:
-            self._patience = get_running_loop().call_later(LOOK, self._look, walk, walk.steps, still)
+            self._patience = get_running_loop().call_later(CHECK_SECONDS, self._look, walk, walk.steps, still)
 
     def way(self) -> list[MessagePump]:
         """Return the path from the widget with the cursor up to the App."""

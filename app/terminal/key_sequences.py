@@ -16,7 +16,15 @@ SOFTKEYS: Final = (Keys.F1, Keys.F2, Keys.F3, Keys.F4, Keys.F5, Keys.F6, Keys.F7
 VT100_PLUS: Final = "PQRSTUVW"
 """PuTTY in VT100+ mode sends ESC O and these letters for F1 to F8; Textual knows the first four."""
 
-SCO: Final = {"N": Keys.F2, "P": Keys.F4, "Q": Keys.F5, "R": Keys.F6, "S": Keys.F7, "T": Keys.F8, "G": Keys.PageDown}
+SCO_KEYS: Final = {
+    "N": Keys.F2,
+    "P": Keys.F4,
+    "Q": Keys.F5,
+    "R": Keys.F6,
+    "S": Keys.F7,
+    "T": Keys.F8,
+    "G": Keys.PageDown,
+}
 """PuTTY in SCO mode sends ESC [ and these letters.  Its F1 begins like a mouse click, and its F3 is what other
 terminals send when their window loses the focus: for these two the operator types Esc and the digit."""
 
@@ -41,7 +49,7 @@ def teach() -> None:
         table[f"\x1b{number}"] = (both,)
     for key, letter in zip(SOFTKEYS, VT100_PLUS, strict=True):
         table[f"\x1bO{letter}"] = (key,)
-    for letter, key in SCO.items():
+    for letter, key in SCO_KEYS.items():
         table[f"\x1b[{letter}"] = (key,)
     # this is how Enter arrives if it was pressed before the screens had the terminal
     table["\n"] = (Keys.Enter,)

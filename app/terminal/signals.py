@@ -20,9 +20,9 @@ from time import sleep
 from typing import Any, Final
 
 SIGNALS: Final = (signal.SIGHUP, signal.SIGTERM, signal.SIGINT, signal.SIGQUIT)
-GRACE: Final = 2.0
+GRACE_SECONDS: Final = 2.0
 """Seconds that the program has to end by itself."""
-LEAVING: Final = (
+RESET_SEQUENCE: Final = (
     b"\x1b[?2026l\x1b[0m\x1b[?2004l\x1b[?7h\x1b[?1004l\x1b[?1000l\x1b[?1003l\x1b[?1015l\x1b[?1006l\x1b[?1049l\x1b[?25h"
 )
 """Turns off everything that was turned on in the terminal, and brings back the previous screen."""
@@ -56,7 +56,7 @@ class Safety:
             asyncio.get_running_loop().call_soon_threadsafe(self.stop, self.status)
 
     def _watch(self) -> None:
-        sleep(GRACE)
+        sleep(GRACE_SECONDS)
         restore(self.modes)
         self.leave()
 
@@ -87,6 +87,6 @@ def restore(modes: list[Any] | None) -> None:
         termios.tcflush(number, termios.TCOFLUSH)
         handle = os.open(os.ttyname(number), os.O_WRONLY | os.O_NOCTTY | os.O_NONBLOCK)
         try:
-            os.write(handle, LEAVING)
+            os.write(handle, RESET_SEQUENCE)
         finally:
             os.close(handle)

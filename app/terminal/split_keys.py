@@ -17,24 +17,24 @@ TORN: Final = "torn"
 """Yielded in place of characters for a key whose pieces came too far apart."""
 UNENDED: Final = "unended"
 """Yielded in place of characters for pasted text whose end did not come."""
-TOLD: Final = {
+KEY_WARNINGS: Final = {
     TORN: "The link split a key in two: the first part was taken for Esc. Look, and press it again.",
     UNENDED: "Pasted text came without its end: nothing of it was taken. Look, and type it or paste it again.",
 }
 """What the operator reads about them."""
-DELAY: Final = 0.3
+ESC_SECONDS: Final = 0.3
 """Seconds that Esc waits for the rest of a key, unless ESCDELAY in the environment gives milliseconds."""
-TOGETHER: Final = 0.1
+SAME_KEY_SECONDS: Final = 0.1
 """Seconds within which Esc and a character are one key, as a terminal sends it; fingers take longer."""
-REST: Final = 1.0
+REST_SECONDS: Final = 1.0
 """Seconds that a key which has certainly begun waits for its rest."""
-PASTING: Final = 2.0
+PASTE_SECONDS: Final = 2.0
 """Seconds after the last byte of pasted text within which its end must come."""
-MOST: Final = 20_000
+MAX_PASTED: Final = 20_000
 """The most characters of pasted text that are kept; no field and no line takes as many."""
-LATE: Final = 2.0
+LATE_SECONDS: Final = 2.0
 """Seconds after Esc has acted, or a begun key has timed out, in which the rest of a key is recognized."""
-LONGEST: Final = 32
+MAX_KEY_LENGTH: Final = 32
 """The most characters of a key."""
 WHOLE: Final = re.compile(r"\x1b\[\[?[0-?]*[ -/]*[A-Za-z~^@]")
 """A key or a report by ECMA-48, except those that end in a bracket, which is typed in formulas of NC programs.
@@ -49,7 +49,7 @@ PASTED: Final = "\x1b[201~"
 def delay(environment: Mapping[str, str]) -> float:
     """Return the seconds that Esc waits."""
     asked = environment.get("ESCDELAY", "")
-    return max(int(asked), 1) / 1000 if asked.isascii() and asked.isdigit() else DELAY
+    return max(int(asked), 1) / 1000 if asked.isascii() and asked.isdigit() else ESC_SECONDS
 
 
 @dataclass(slots=True)
@@ -62,12 +62,12 @@ class Joined:
     """
 
     known: Container[str]
-    delay: float = DELAY
+    delay: float = ESC_SECONDS
     held: str = ""
     paste: str | None = None
     begun: float = 0.0
     last: float = 0.0
-    escaped: float = -LATE
+    escaped: float = -LATE_SECONDS
     cut: str = ESC
     clicked: int = 0
 
@@ -75,12 +75,12 @@ class Joined:
     def due(self) -> float | None:
         """The time at which to call `tick` if nothing arrives; None if nothing is held."""
         if self.paste is not None:
-            return self.last + PASTING
+            return self.last + PASTE_SECONDS
         if not self.held:
             return None
         if self.held == ESC:
             return self.begun + self.delay
-        return self.last + (TOGETHER if self.held == "O" else REST)
+        return self.last + (SAME_KEY_SECONDS if self.held == "O" else REST_SECONDS)
 
     def feed(self, text: str, now: float) -> Iterator[str]:
         """Yield whole keys, single characters, whole pastes and `TORN` from what has arrived."""
@@ -92,7 +92,7 @@ class Joined:
                 continue
             body, end, text = (self.paste + text).partition(PASTED)
             # the last characters may begin the end marker
-            short = body if len(body) <= MOST else body[:MOST] + body[-len(PASTED) :]
+            short = body if len(body) <= MAX_PASTED else body[:MAX_PASTED] + body[-len(PASTED) :]
             self.paste = None if end else short
             if end:
                 yield f"{PASTE}{short}{PASTED}"
@@ -121,11 +121,11 @@ class Joined:
             self.held, self.begun = ESC, now
         elif held == ESC and character not in "[O":
             yield from self._after_escape(character, now)
-        elif held or (now - self.escaped < LATE and self._continues_cut_key(character)):
+        elif held or (now - self.escaped < LATE_SECONDS and self._continues_cut_key(character)):
             self.held += character
             yield from self._grown(character, now)
         else:
-            self.escaped = -LATE
+            self.escaped = -LATE_SECONDS
             yield character
 
     def _continues_cut_key(self, character: str) -> bool:
@@ -138,7 +138,7 @@ class Joined:
     def _after_escape(self, character: str, now: float) -> Iterator[str]:
         """Yield Alt and a character, if both came in one packet, or else two keys."""
         self.held = ""
-        if now - self.begun <= TOGETHER:
+        if now - self.begun <= SAME_KEY_SECONDS:
             yield ESC + character
         else:
             yield from (ESC, character)
@@ -152,7 +152,7 @@ class Joined:
                 yield self._torn()
             else:
                 yield from self._whole()
-        elif not BEGUN.fullmatch(key) or len(key) > LONGEST:
+        elif not BEGUN.fullmatch(key) or len(key) > MAX_KEY_LENGTH:
             self.held = self.held[:-1]
             yield from self._as_typed()
             yield from self._take(character, now)
@@ -168,10 +168,10 @@ class Joined:
 
     def _torn(self) -> str:
         """Drop a key whose pieces came too far apart: it is neither Esc nor text."""
-        self.held, self.escaped = "", -LATE
+        self.held, self.escaped = "", -LATE_SECONDS
         return TORN
 
     def _as_typed(self) -> Iterator[str]:
         """Yield what is held key by key: it is not part of a longer key."""
-        held, self.held, self.escaped = self.held, "", -LATE
+        held, self.held, self.escaped = self.held, "", -LATE_SECONDS
         yield from held

@@ -21,7 +21,7 @@ COLUMNS: Final = (("chain", 6), ("kind", 10), ("layer", 8), ("pieces", 6), ("len
 MAX_INDENT: Final = 2
 """The most columns by which a contour inside others is indented."""
 
-MARK: Final = "*"
+TAKEN_MARK: Final = "*"
 
 
 class ContourTable(RowTable[Content]):
@@ -69,7 +69,7 @@ def _heading(label: str, width: int) -> str:
 
 def _first_cell(row: Row, marked: Collection[int]) -> Content:
     count = sum(contour.number in marked for contour in row.contours)
-    sign = MARK if count == len(row.contours) else "-" if count else " "
+    sign = TAKEN_MARK if count == len(row.contours) else "-" if count else " "
     return Content(f"{sign}{row.first.number:>5}")
 
 

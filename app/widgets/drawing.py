@@ -27,11 +27,11 @@ if TYPE_CHECKING:
     from core.pipeline.plot import Drawn
 
 
-ZOOM: Final = 1.25
+ZOOM_FACTOR: Final = 1.25
 """The factor of one zoom step."""
-PAN: Final = 0.125
+PAN_SHARE: Final = 0.125
 """The fraction of the window by which one arrow key moves it."""
-FARTHEST: Final = 2.0
+MAX_OFFSET_SIZES: Final = 2.0
 """How far the window may move from the drawing, as a multiple of the drawing's larger side."""
 LOOK_KEYS: Final[tuple[BindingType, ...]] = (
     Binding("plus,equals_sign", "screen.zoom(1)", "Zoom in", show=False),
@@ -52,7 +52,7 @@ class Drawable(Protocol):
         """Return the picture in columns x rows cells; None if there is nothing to see."""
 
 
-LOOKS: Final = {
+LOOK_OF_STYLE: Final = {
     "background": "$c-label",
     "axis": "$c-frame",
     "part": "$c-part",
@@ -100,14 +100,14 @@ class Drawing(Widget):
 
     def zoomed(self, steps: int, about: Point | None = None) -> View | None:
         """Return the view zoomed about a point (mm), by default its center; None if nothing is drawn."""
-        return None if self.drawn is None else self.drawn.view.zoom(ZOOM**steps, about)
+        return None if self.drawn is None else self.drawn.view.zoom(ZOOM_FACTOR**steps, about)
 
     def panned(self, right: int, up: int) -> View | None:
         """Return the view moved by steps; None if nothing is drawn, or if it would be too far from the drawing."""
         if self.drawn is None:
             return None
-        view = self.drawn.view.pan(PAN * right, PAN * up, *self.size)
-        return view if view.touches(self.drawn.bounds, FARTHEST) else None
+        view = self.drawn.view.pan(PAN_SHARE * right, PAN_SHARE * up, *self.size)
+        return view if view.touches(self.drawn.bounds, MAX_OFFSET_SIZES) else None
 
     def watch_subject(self) -> None:
         """Redraw for another block, segment or view."""
@@ -169,7 +169,7 @@ class Drawing(Widget):
         if self.drawn is None:
             return []
         base, parse = self.visual_style, self.app.stylesheet.parse_style
-        looks = [(base + parse(look)).rich_style for look in LOOKS.values()]
+        looks = [(base + parse(look)).rich_style for look in LOOK_OF_STYLE.values()]
         rows = zip(self.drawn.picture.rows, self.drawn.picture.styles.tolist(), strict=True)
         strips = []
         for text, styles in rows:

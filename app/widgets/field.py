@@ -26,9 +26,9 @@ MAX_TYPED: int = 200
 """The most characters that a field takes; more come from a stuck key."""
 
 
-SIGNS: Final = "+-./"
+NUMBER_SIGNS: Final = "+-./"
 """The signs of a number, which is no choice."""
-LISTED: frozenset[str] = frozenset({"tool", "finish_tool", "lookahead"})
+LISTED_FIELDS: frozenset[str] = frozenset({"tool", "finish_tool", "lookahead"})
 """Number fields that open a list with Space: tools and look-ahead."""
 
 
@@ -111,8 +111,8 @@ class NumberField(LineInput):
         return self.value.strip() not in (self.resting.strip(), self.full.strip())
 
     def check_consume_key(self, key: str, character: str | None) -> bool:
-        """True if a key is typed: any printable one except ?, =, Space in a LISTED field, and softkey digits."""
-        if key in ("question_mark", "equals_sign") or (key == "space" and self.name in LISTED):
+        """True if a key is typed: any printable one except ?, =, Space in a field with a list, and softkey digits."""
+        if key in ("question_mark", "equals_sign") or (key == "space" and self.name in LISTED_FIELDS):
             return False
         if self.softkey_digits and key in tuple("12345678"):
             return False
@@ -246,7 +246,7 @@ class ChoiceField(Select[str], inherit_bindings=False):
 
     def on_key(self, event: events.Key) -> None:
         """Select by letters: one goes to the next choice that begins with it, more of them spell it out."""
-        if event.character is None or not (event.character.isalnum() or event.character in SIGNS):
+        if event.character is None or not (event.character.isalnum() or event.character in NUMBER_SIGNS):
             return
         event.stop()
         letter = event.character.upper()

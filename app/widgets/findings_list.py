@@ -13,7 +13,7 @@ from textual.widgets.option_list import Option
 
 from app.session.block_findings import Entry, Kind
 from app.widgets.option_rows import OptionRows
-from app.widgets.verdict import MARKS, Marks
+from app.widgets.verdict import MARKS_OF_CHARACTERS, Marks
 
 ROLES = {
     Kind.GOUGE: "$c-gouge",
@@ -85,7 +85,7 @@ class FindingsList(OptionRows):
 
     def _line(self, number: int, entry: Entry) -> Content:
         """Return the title and the segment, then what the sentence says besides its title."""
-        sign = mark(entry.kind, MARKS[self.characters])
+        sign = mark(entry.kind, MARKS_OF_CHARACTERS[self.characters])
         where = "" if entry.where in entry.title else f"  {entry.where}"
         head = self._wrapped(f"{sign} {number + 1} {entry.title}{where}")
         more = entry.text.removeprefix(entry.title).lstrip(".,; ")

@@ -12,7 +12,7 @@ from app.session.block_findings import Entry, Kind
 from app.session.session import Session
 from app.widgets.drawing import Drawing
 from app.widgets.findings_list import heading
-from app.widgets.verdict import MARKS
+from app.widgets.verdict import MARKS_OF_CHARACTERS
 from core.program.fields import form_of
 from core.program.solve.solution import solution_at
 
@@ -79,7 +79,7 @@ def _loupe(
     """Return the loupe's center (None for the whole part), its title, and the kind of the finding."""
     if in_hand is not None and in_hand < len(entries):
         entry = entries[in_hand]
-        return entry.at, heading(entries, in_hand, MARKS[characters]), entry.kind
+        return entry.at, heading(entries, in_hand, MARKS_OF_CHARACTERS[characters]), entry.kind
     number = session.place.segment
     solved = session.derived_block.solved.segments
     solution = solution_at(session.derived_block.solved, number)

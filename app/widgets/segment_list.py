@@ -12,7 +12,7 @@ from app.session.posting import deleted_numbers
 from app.session.session import Session
 from app.session.words import length
 from app.widgets.row_table import RowTable
-from app.widgets.verdict import MARKS
+from app.widgets.verdict import MARKS_OF_CHARACTERS
 from core.pipeline.derived import DerivedBlock
 from core.program.fields import form_of
 from core.program.model import BlendSegment, ChamferSegment, Number
@@ -91,7 +91,7 @@ class SegmentList(RowTable[Text]):
         return Text(text, justify="right")
 
     def _outcome_cell(self, outcome: str) -> Text:
-        marks = MARKS[self.characters]
+        marks = MARKS_OF_CHARACTERS[self.characters]
         sign = {"gouge": marks.gouge, "uncut": marks.warning, "deleted": marks.deleted, "type": "?"}.get(outcome, "")
         color = self.app.theme_variables.get(FATES.get(outcome, "")[1:], "")
         return Text(f"  {sign} {outcome}".rstrip(), color.removeprefix("ansi_"))

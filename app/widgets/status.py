@@ -23,7 +23,7 @@ MINUTE = 60.0
 LOW_ON_DISK = 50_000_000
 """Bytes of free disk space below which it is shown as a warning."""
 
-UNITS: Final = {Unit.IN: "I N C H", Unit.MM: "M M"}
+SPACED_UNITS: Final = {Unit.IN: "I N C H", Unit.MM: "M M"}
 """The unit, spaced out, for a new program and for the screen that posts it."""
 
 
@@ -71,7 +71,7 @@ class Status(Horizontal):
         """Show the state of the contour program; the unit stands out until there is a segment."""
         undo, redo = session.history.undo_count, session.history.redo_count
         new = not any(block.segments for block in session.program.blocks)
-        unit = f" {UNITS[session.program.unit]} " if new else str(session.program.unit)
+        unit = f" {SPACED_UNITS[session.program.unit]} " if new else str(session.program.unit)
         # a file that does not exist yet has nothing saved in it
         saved = session.file is not None and not new
         self.show(unit, undo, redo, unsaved=session.unsaved, saved=saved, new=new)

@@ -19,7 +19,7 @@ from textual.reactive import reactive
 from textual.widgets import Static
 
 from app.documents.survey import Outcome
-from app.session.block_findings import GOUGING, TO_TYPE, WAITS
+from app.session.block_findings import GOUGE_CODES, TO_TYPE, WAITING_CODES
 from app.session.posting import deleted_numbers, deleted_segments
 from app.session.words import length, segment_numbers, shortened
 from app.widgets.plain import PlainText
@@ -31,14 +31,14 @@ if TYPE_CHECKING:
     from core.advice.lookahead_table import Row, Table
     from core.verify.verdict import Verdict as Judgment
 
-HIGHEST: Final = 20
+MAX_LOOKAHEAD: Final = 20
 """The largest look-ahead value."""
 CHIPS_WIDTH: Final = 58
 """The width in cells of the chips' line on the narrowest screens."""
 SHORTEST_CHIP: Final = 24
 """The fewest characters before a colon that are shown alone: a field's name would say too little."""
 
-IN_OTHER_PLACES: Final = WAITS | GOUGING
+IN_OTHER_PLACES: Final = WAITING_CODES | GOUGE_CODES
 """Errors for which the prompt or the first chip is enough."""
 
 OUTCOME_ROLES: Final = {
@@ -65,7 +65,7 @@ class Marks(NamedTuple):
     value: str
 
 
-MARKS: Final[Mapping[str, Marks]] = MappingProxyType(
+MARKS_OF_CHARACTERS: Final[Mapping[str, Marks]] = MappingProxyType(
     {
         "braille": Marks("✖", "▲", "×", "✓", "•"),
         "block": Marks("!", "▲", "x", "√", "·"),
@@ -119,7 +119,7 @@ class Verdict(Vertical):
             return
         self.set_class(self.case.working is not None or self.case.stopped, "-working")
         self.border_title = title(self.case)
-        marks = MARKS[self.characters]
+        marks = MARKS_OF_CHARACTERS[self.characters]
         for name, line in (("strip", strip(self.case, marks)), ("chips", chips(self.case, marks))):
             static = self.query_one(f"#{name}", Static)
             if static.content != line:
@@ -174,12 +174,12 @@ def strip(case: Case, marks: Marks) -> Content:
     if case.block.side is None:
         return Content("")
     parts: list[tuple[str, str]] = [(" 1 ", "$c-label")]
-    for value in range(1, HIGHEST + 1):
+    for value in range(1, MAX_LOOKAHEAD + 1):
         row = None if case.table is None else case.table.row(value)
         role, mark = _value_mark(row, marks)
         here = value == case.block.lookahead.value
         parts.append((f" {value} ", f"bold reverse {role}") if here else (mark, role))
-    parts.append((f" {HIGHEST}", "$c-label"))
+    parts.append((f" {MAX_LOOKAHEAD}", "$c-label"))
     parts.append((f"   {_advice(case)}", "$c-label"))
     return Content.assemble(*parts)
 
@@ -256,7 +256,7 @@ def _stopped_short(case: Case) -> bool:
     """True if the path ends before a segment with an error and gouges nothing up to there."""
     block = case.block
     open_end = not block.solved.whole and not (case.judgment and case.judgment.gouges)
-    return open_end and any(finding.code not in WAITS for finding in block.errors)
+    return open_end and any(finding.code not in WAITING_CODES for finding in block.errors)
 
 
 def _first_error(case: Case, marks: Marks) -> Content:

@@ -16,7 +16,7 @@ from core.units import Kind, from_mm, show, to_mm
 
 PARTNERS: Final = (("point_x", "point_y"), ("point_y", "point_x"), ("point_dist", "point_x"), ("offset", "parallel"))
 """Fields of a LINE or an ARC, each with another without which it has no effect."""
-VISIBLE: Final = 0.01
+SMALLEST_VISIBLE_LENGTH: Final = 0.01
 """Millimeters: a longer length is displayed as something other than 0 in any unit."""
 
 
@@ -145,7 +145,7 @@ def _no_clearance(solved: SolvedBlock, program: Program) -> Iterator[Finding]:
         value = _in_force(program, Form.PARAMETERS, name)
         if (
             value is None
-            or value > VISIBLE
+            or value > SMALLEST_VISIBLE_LENGTH
             or show(from_mm(value, program.unit), Kind.LENGTH, program.unit).strip("0.")
         ):
             continue

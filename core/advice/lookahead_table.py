@@ -6,7 +6,7 @@ from dataclasses import dataclass
 
 from core.comp.compensate import compensate_all
 from core.comp.compensated import Compensated
-from core.comp.lookahead import HIGHEST, LOWEST, recommended
+from core.comp.lookahead import MAX_LOOKAHEAD, MIN_LOOKAHEAD, recommended
 from core.finding import Finding
 from core.geometry.path import Path
 from core.geometry.piece import Side
@@ -15,7 +15,7 @@ from core.verify.judge import judge
 from core.verify.report import enumerated
 from core.verify.verdict import Verdict
 
-VALUES = range(LOWEST, HIGHEST + 1)
+VALUES = range(MIN_LOOKAHEAD, MAX_LOOKAHEAD + 1)
 """The look-ahead values that an operator may type."""
 
 
@@ -97,7 +97,7 @@ class Table:
 
     def row(self, value: int) -> Row:
         """Return the row of a look-ahead value."""
-        return self.rows[value - LOWEST]
+        return self.rows[value - MIN_LOOKAHEAD]
 
 
 def judge_lookaheads(setup: CuttingSetup, progress: Progress = silent) -> Table:

@@ -14,7 +14,7 @@ from core.comp.prune import Pruned
 from core.finding import Finding, Severity
 from core.geometry.path import Flags, Floats, Path, Rows, as_complex
 from core.geometry.piece import Side
-from core.tolerance import ARC_RADII, GOUGE, JOINED, LARGEST
+from core.tolerance import ARC_RADII, GOUGE, JOINED, LARGEST_COORDINATE
 
 MAX_NAMED_PLACES: Final = 100
 """At most this many places of one kind are listed; a last finding then says how many there are in all."""
@@ -22,7 +22,7 @@ MAX_NAMED_PLACES: Final = 100
 
 def contour_refusals(contour: Path, radius: float, lookaheads: Sequence[int]) -> tuple[Finding, ...]:
     """Return why a contour cannot be compensated at all; empty if it can."""
-    if not isfinite(radius) or not 0.0 < radius <= LARGEST:
+    if not isfinite(radius) or not 0.0 < radius <= LARGEST_COORDINATE:
         return (_error("RADIUS", "The cutter's radius must be a number larger than 0."),)
     if min(lookaheads, default=1) < 1:
         return (_error("LOOKAHEAD", "The look-ahead must be 1 or more."),)
@@ -39,12 +39,12 @@ def _error(code: str, text: str, segment: float | None = None) -> Finding:
 
 def _usable(values: Floats) -> bool:
     """True if all values are coordinates that a machine could have; comparisons with NaN are false."""
-    return bool(np.abs(values).max() <= LARGEST)
+    return bool(np.abs(values).max() <= LARGEST_COORDINATE)
 
 
 def _not_finite(contour: Path) -> Finding:
-    points: Flags = np.logical_and.reduce(np.abs(contour.points) <= LARGEST, axis=1)
-    bad = ~(points[:-1] & points[1:] & (np.abs(contour.centers) <= LARGEST).all(axis=1))
+    points: Flags = np.logical_and.reduce(np.abs(contour.points) <= LARGEST_COORDINATE, axis=1)
+    bad = ~(points[:-1] & points[1:] & (np.abs(contour.centers) <= LARGEST_COORDINATE).all(axis=1))
     text = "A coordinate of this segment is too large for any machine. Type it again."
     return _error("NOT_FINITE", text, float(contour.numbers[np.argmax(bad)]))
 

@@ -7,10 +7,10 @@ from typing import Final, Protocol
 
 from core.tolerance import JOINED
 
-LOWEST: Final = 1
+MIN_LOOKAHEAD: Final = 1
 """The smallest look-ahead an operator may type."""
 
-HIGHEST: Final = 20
+MAX_LOOKAHEAD: Final = 20
 """The largest look-ahead an operator may type."""
 
 _LARGEST_CALCULATED: Final = 8

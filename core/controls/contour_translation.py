@@ -17,7 +17,7 @@ from core.controls.control_tools import ToolTable
 from core.controls.registry import UnknownControl, run
 from core.controls.write.contour_pass import PassWithLeads, WrittenLine
 from core.controls.write.iso_program import Frame, tools_of, write_iso
-from core.controls.write.iso_style import FREE_ENTRY, STYLES
+from core.controls.write.iso_style import FREE_ENTRY, STYLE_OF_CONTROL
 from core.controls.write.klartext_program import KLARTEXT_DECIMALS, write_klartext_contours
 from core.controls.write.rewritten_stretch import NotTranslated, rewritten_stretch
 from core.units import to_mm
@@ -47,7 +47,7 @@ def translate_contours(source: ControlRun, control: str) -> TranslatedProgram | 
     sizes = list(dict.fromkeys(stretch.radius for stretch in source.stretches))
     if len(sizes) > MAX_TOOLS:
         return NotTranslated(f"its contours need more than {MAX_TOOLS} tools")
-    style, unit = STYLES.get(control), source.unit
+    style, unit = STYLE_OF_CONTROL.get(control), source.unit
     runs, sources = list[PassWithLeads](), [0]
     for stretch in source.stretches:
         tool = sizes.index(stretch.radius) + 1

@@ -21,13 +21,13 @@ MAX_LEAD_MOVES: Final = 2
 MAX_CONTOURS: Final = 32
 """Most contours of a path; beyond this all moves count as surface, as each contour is judged with the whole path."""
 
-BLEND: Final = radians(1.0)
+MAX_TANGENT_ANGLE: Final = radians(1.0)
 """Largest angle between the directions of a lead and of the contour at which they still run on tangent."""
 
-LONG: Final = 0.5
+MAX_LEAD_SHARE: Final = 0.5
 """Share of the longest contour beyond which moves that lead to or from a contour may be walls."""
 
-OVERLAP: Final = 1e-3
+MAX_RETRACE_ANGLE: Final = 1e-3
 """Largest angle in radians between a wall and a move that runs along it again, with rounded ends."""
 
 RowRange = tuple[int, int]
@@ -82,9 +82,9 @@ def between_lead_arcs(path: Path, contour: RowRange, stretch: Stretch, *, cut_sh
 
     def leads(arc: int, wall: int) -> bool:
         before, after = min(arc, wall), max(arc, wall)
-        tangent = float(path.end_directions[before] @ path.start_directions[after]) >= cos(BLEND)
+        tangent = float(path.end_directions[before] @ path.start_directions[after]) >= cos(MAX_TANGENT_ANGLE)
         wide = path.turns[arc] == stretch.side.sign and path.radii[arc] > stretch.radius
-        return bool(wide and abs(path.sweeps[arc]) <= pi / 2 + BLEND and tangent)
+        return bool(wide and abs(path.sweeps[arc]) <= pi / 2 + MAX_TANGENT_ANGLE and tangent)
 
     if stretch.entry and first == 0 and last > 1 and leads(0, 1):
         first = 1
@@ -164,7 +164,7 @@ def _running_over(path: Path, point: Floats, way: Floats) -> tuple[Rows, Floats]
         points = np.full(len(pieces), complex(*point))
         share = foot(pieces, points)
         near = distance(pieces, points) <= CLOSED
-        straight_on = (direction(pieces, share) * np.conj(complex(*way))).real > cos(BLEND)
+        straight_on = (direction(pieces, share) * np.conj(complex(*way))).real > cos(MAX_TANGENT_ANGLE)
     reach, ends_apart = share * pieces.length, (path.starts != path.ends).any(axis=1)[pieces.rows]
     over = near & straight_on & (reach > CLOSED) & (reach < pieces.length - CLOSED) & ends_apart
     rows, places = pieces.rows[over], coordinates(at(pieces, share)[over])
@@ -190,7 +190,7 @@ def has_long_leads(path: Path, contours: tuple[RowRange, ...]) -> bool:
     length = np.concatenate((np.zeros(1), np.cumsum(path.lengths)))
     ends = length[[0, *(row for both in contours for row in both), len(path)]]
     gaps, perimeters = ends[1::2] - ends[::2], ends[2::2] - ends[1:-1:2]
-    return bool(gaps.max() > LONG * perimeters.max())
+    return bool(gaps.max() > MAX_LEAD_SHARE * perimeters.max())
 
 
 def leads_at_corner(path: Path, contours: tuple[RowRange, ...]) -> bool:
@@ -198,7 +198,7 @@ def leads_at_corner(path: Path, contours: tuple[RowRange, ...]) -> bool:
     for first, last in contours:
         lines = first > 0 and last < len(path) and not path.turns[first - 1] and not path.turns[last]
         back = lines and np.abs(path.points[first - 1] - path.points[last + 1]).max() <= CLOSED
-        if back and float(path.end_directions[last - 1] @ path.start_directions[first]) < cos(OVERLAP):
+        if back and float(path.end_directions[last - 1] @ path.start_directions[first]) < cos(MAX_RETRACE_ANGLE):
             return True
     return False
 
@@ -221,7 +221,7 @@ def _blends(path: Path, rows: range) -> bool:
     """True if the moves run on tangent from the contour's row, the first one, out to an arc."""
     for near, far in pairwise(rows):
         before, after = min(near, far), max(near, far)
-        if float(path.end_directions[before] @ path.start_directions[after]) < cos(BLEND):
+        if float(path.end_directions[before] @ path.start_directions[after]) < cos(MAX_TANGENT_ANGLE):
             return False
         if path.turns[far]:
             return True
@@ -273,7 +273,7 @@ def _between_leads(path: Path, sums: Floats, point_ids: list[int], rows: RowRang
     if not path.turns[begin - 1] and not path.turns[end]:
         return (begin, end) if _leads_off(path, begin, end) else rows
     largest = pi if _inside_of_circle(path, (begin - 1, end), (begin, end)) else pi / 2
-    arcs = all(path.turns[row] and abs(path.sweeps[row]) <= largest + BLEND for row in (begin - 1, end))
+    arcs = all(path.turns[row] and abs(path.sweeps[row]) <= largest + MAX_TANGENT_ANGLE for row in (begin - 1, end))
     tangent = _blends(path, range(begin, begin - 2, -1)) and _blends(path, range(end - 1, end + 1))
     return (begin, end) if arcs and tangent else rows
 
@@ -286,9 +286,9 @@ def _leads_off(path: Path, begin: int, end: int) -> bool:
     """
     before, after = -path.end_directions[end - 1], path.start_directions[begin]
     off = path.start_directions[end]
-    smooth = float(before @ after) < -cos(OVERLAP)
-    straight_on = min(float(off @ before), float(off @ after)) < -cos(OVERLAP)
-    return smooth or straight_on or max(float(off @ before), float(off @ after)) <= OVERLAP
+    smooth = float(before @ after) < -cos(MAX_RETRACE_ANGLE)
+    straight_on = min(float(off @ before), float(off @ after)) < -cos(MAX_RETRACE_ANGLE)
+    return smooth or straight_on or max(float(off @ before), float(off @ after)) <= MAX_RETRACE_ANGLE
 
 
 def _inside_of_circle(path: Path, arcs: tuple[int, int], rows: RowRange) -> bool:
@@ -345,7 +345,7 @@ def _runs_along(path: Path, row: int, other: int) -> bool:
     if path.turns[row]:
         apart.append(path.centers[row] - path.centers[other])
     same = bool(path.turns[row] == path.turns[other] and np.abs(apart).max() <= CLOSED)
-    along = float(path.start_directions[row] @ path.start_directions[other]) > cos(OVERLAP)
+    along = float(path.start_directions[row] @ path.start_directions[other]) > cos(MAX_RETRACE_ANGLE)
     return same and along and float(path.lengths[row]) <= float(path.lengths[other]) + CLOSED
 
 

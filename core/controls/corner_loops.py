@@ -23,10 +23,10 @@ from core.verify.self_crossings import self_crossings
 LARGEST_SHARE: Final = 0.5
 """Share of the rest of the contour above which a loop counts as part of the contour."""
 
-LONG: Final = 0.25
+MAX_LOOP_SHARE: Final = 0.25
 """Share of the rest of the contour above which a loop may be part of the contour."""
 
-SHARPEST: Final = 1e-3
+MIN_CORNER_TURN: Final = 1e-3
 """Least turn of a corner in radians; the loop's whole turn may be off by as much."""
 
 
@@ -50,7 +50,9 @@ def without_corner_loops(contour: Path, side: Side) -> tuple[Path, tuple[CornerL
         shorter = _cut_short(contour, first, last, at)
         around = float(contour.lengths.sum() - shorter.lengths.sum())
         numbers = tuple(contour.numbers[first : last + 1].tolist())
-        loops.append(CornerLoop((float(at[0]), float(at[1])), numbers, around > LONG * float(shorter.lengths.sum())))
+        loops.append(
+            CornerLoop((float(at[0]), float(at[1])), numbers, around > MAX_LOOP_SHARE * float(shorter.lengths.sum()))
+        )
         contour = shorter
     return contour, tuple(loops)
 
@@ -83,7 +85,7 @@ def _goes_around(contour: Path, walls: PieceArrays, first: int, last: int, side:
     cross = ends[:, 0] * starts[:, 1] - ends[:, 1] * starts[:, 0]
     turned = float(np.arctan2(cross, (ends * starts).sum(axis=1)).sum() + contour.sweeps[rows].sum()) * side.sign
     # the long way round: a full turn more than the corner itself
-    return corner < -SHARPEST and abs(turned - corner - 2.0 * pi) < SHARPEST
+    return corner < -MIN_CORNER_TURN and abs(turned - corner - 2.0 * pi) < MIN_CORNER_TURN
 
 
 def _cut_short(contour: Path, first: int, last: int, at: Floats) -> Path:

@@ -36,13 +36,13 @@ from core.verify.judge import judge
 from core.verify.surface import Leads
 from core.verify.verdict import Gouge
 
-SAG: Final = 1e-3
+MAX_CHORD_ERROR: Final = 1e-3
 """Largest distance in millimeters of a chord from its arc."""
 
 SEGMENTS_A_QUARTER: Final = 32
 """Chords per quarter circle at the ends of a swept region."""
 
-LEAST: Final = 0.01
+MIN_CUT_DEPTH: Final = 0.01
 """Least depth in millimeters at which a path cuts a wall away."""
 
 LEFT_OVER: Final = 0.05
@@ -91,7 +91,7 @@ class _Pass:
     def swept(self, top: float, grown: float) -> BaseGeometry:
         """Return the region that a cutter larger by `grown` on all sides sweeps in the moves no higher than `top`."""
         if (top, grown) not in self.regions:
-            lines = [LineString(chords_of(path, SAG)) for path in self.low(top)]
+            lines = [LineString(chords_of(path, MAX_CHORD_ERROR)) for path in self.low(top)]
             reach = max(self.radius + grown, 0.0)
             region = shapely.union_all([line.buffer(reach, quad_segs=SEGMENTS_A_QUARTER) for line in lines])
             shapely.prepare(region)
@@ -156,7 +156,7 @@ def _passes(run: ControlRun, contours: Sequence[CutContour]) -> list[_Pass]:
             moves = run.moves.part(part.first, part.last)
             key = (path_key(moves.path()), part.radius, setup)
             lowest = passes[key].moves.points[:, 2].min() if key in passes else np.inf
-            if part.radius > LEAST and len(moves.path()) and moves.points[:, 2].min() < lowest:
+            if part.radius > MIN_CUT_DEPTH and len(moves.path()) and moves.points[:, 2].min() < lowest:
                 passes[key] = _Pass(moves, part.radius, shapes, setup)
     return list(passes.values())
 
@@ -185,14 +185,16 @@ def _bounds(paths: Sequence[Path]) -> Floats:
 def _cut(wall: _Wall, passes: Sequence[_Pass]) -> ContourCut | None:
     """Return the deepest cut of these passes into a contour; None if there is none, or its wall was not to stay."""
     top = wall.contour.top
-    own_region = shapely.union_all([sweep.swept(top, LEAST) for sweep in passes if wall.shape in sweep.own_shapes])
+    own_region = shapely.union_all(
+        [sweep.swept(top, MIN_CUT_DEPTH) for sweep in passes if wall.shape in sweep.own_shapes]
+    )
     line, inside = _outline(wall.contour.path, own_region)
     stands, core, cutting = line.intersection(own_region), inside, list[_Pass]()
     for sweep in passes:
-        if wall.shape in sweep.own_shapes or not sweep.swept(top, -LEAST).intersects(line):
+        if wall.shape in sweep.own_shapes or not sweep.swept(top, -MIN_CUT_DEPTH).intersects(line):
             continue
         cutting.append(sweep)
-        region = sweep.swept(top, -LEAST)
+        region = sweep.swept(top, -MIN_CUT_DEPTH)
         stands, core = stands.difference(region), core.difference(region)
         if stands.length <= LEFT_OVER and inside.is_empty:
             return None
@@ -206,13 +208,13 @@ def _cut(wall: _Wall, passes: Sequence[_Pass]) -> ContourCut | None:
 
 def _outline(path: Path, own: BaseGeometry) -> tuple[BaseGeometry, BaseGeometry]:
     """Return a contour as a line, without over-runs if it encloses something, and what material it encloses."""
-    line = LineString(chords_of(path, SAG))
+    line = LineString(chords_of(path, MAX_CHORD_ERROR))
     regions = list(shapely.get_parts(shapely.polygonize([shapely.node(line)])))
     largest = max(regions, key=lambda region: region.area, default=Polygon())
     if largest.is_empty:
         return line, largest
     # an island's own path stays outside it
-    is_island = largest.intersection(own).area < largest.length * 3.0 * LEAST
+    is_island = largest.intersection(own).area < largest.length * 3.0 * MIN_CUT_DEPTH
     return largest.exterior, largest if is_island else Polygon()
 
 

@@ -38,14 +38,14 @@ from core.tolerance import ARC_RADII, GOUGE, ON_PATH, ROUNDING
 from core.units import Kind, Unit, decimals_shown, to_mm
 from core.verify.air_cuts import AirCut, air_cuts
 from core.verify.judge import judge
-from core.verify.report import DIGIT, SHOWN, contact_findings, enumerated, or_more
+from core.verify.report import LAST_DIGIT, SHOWN, contact_findings, enumerated, or_more
 from core.verify.surface import Leads
 from core.verify.verdict import Gouge, OverRun, Verdict
 
 MAX_GOUGES: Final = 20
 """Most gouges of a result that get a finding each, deepest first."""
 
-JUDGED: Final = 0.8
+JUDGING_SHARE: Final = 0.8
 """Progress when every stretch is judged; comparing their contours with one another takes the rest."""
 
 MAX_LINES: Final = 6
@@ -149,7 +149,7 @@ def judge_run(run: ControlRun, progress: Progress = silent) -> tuple[Judged, ...
     if run.endless:
         return ()
     least, results, heights = smallest_gouge(run.unit), list[Judged](), heights_above(run)
-    judging, comparing = part_of(progress, 0.0, JUDGED), part_of(progress, JUDGED, 1.0)
+    judging, comparing = part_of(progress, 0.0, JUDGING_SHARE), part_of(progress, JUDGING_SHARE, 1.0)
     for done, stretch in enumerate(run.stretches):
         judging(done / len(run.stretches))
         cut_short = run.stops_within(stretch)
@@ -631,7 +631,7 @@ def _gouge(gouge: Gouge, radius: float) -> Finding:
         text,
         at=gouge.surface_at,
         value=gouge.depth,
-        lengths=(DIGIT,) if too_small else (),
+        lengths=(LAST_DIGIT,) if too_small else (),
         line=line,
     )
 
@@ -738,7 +738,7 @@ def _uncut(result: Judged) -> list[Finding]:
     too_small = worst.thickness < SHOWN
     thick = "less than {2}" if too_small else "at most {value}"
     text = f"{{0}} of {{1}} of the surface stays uncut, {thick} thick at X {{x}} Y {{y}}."
-    lengths = (verdict.uncut_length, verdict.surface_length, *((DIGIT,) if too_small else ()))
+    lengths = (verdict.uncut_length, verdict.surface_length, *((LAST_DIGIT,) if too_small else ()))
     line, at = int(worst.first_number), worst.thickest
     severity = Severity.INFO if too_small else Severity.WARNING
     return [Finding("UNCUT", severity, text, at=at, value=worst.thickness, lengths=lengths, line=line)]

@@ -18,7 +18,7 @@ from core.controls.moves import Moves, Plane
 from core.geometry.path import Flags, Floats
 from core.tolerance import ON_PATH
 
-Z: Final = 2
+Z_COLUMN: Final = 2
 
 MoveSpan = tuple[int, int]
 """The row of the point where a run of moves starts, and the row of its last move."""
@@ -43,7 +43,7 @@ def heights_above(run: ControlRun) -> Floats:
     Every feed move in the plane cuts, except the leads of compensated stretches.
     """
     moves = run.moves
-    heights = moves.points[:, Z]
+    heights = moves.points[:, Z_COLUMN]
     reached = np.maximum(heights, np.concatenate((heights[:1], heights[:-1])))
     cuts = moves.moving_in(Plane.XY) & ~moves.rapid & ~_leads(run)
     return np.maximum(np.maximum.accumulate(np.where(cuts, reached, -inf)) + 2.0 * ON_PATH, 0.0)
@@ -94,7 +94,7 @@ def divided(moves: Moves, stretch: Stretch, height: float) -> Divided | None:
 
 def _at_least(moves: Moves, height: float) -> Flags:
     """Return (n,) flags of rows that start and end at this height or higher."""
-    high: Flags = moves.points[:, Z] >= height
+    high: Flags = moves.points[:, Z_COLUMN] >= height
     high[1:] &= high[:-1]
     return high
 

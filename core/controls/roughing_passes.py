@@ -16,7 +16,7 @@ from core.geometry.chords import chords_of
 from core.geometry.path import Path
 from core.geometry.piece import Side
 
-SAG: Final = 1e-3
+MAX_CHORD_ERROR: Final = 1e-3
 """Millimeters by which chords may be off the passes; passes that come nearer than two of them share a wall."""
 
 
@@ -62,7 +62,7 @@ def _region(path: Path, rows: RowRange) -> Polygon | None:
     """Return what a closed run of pieces encloses; None if it is open or crosses itself."""
     if not is_closed(path, rows):
         return None
-    chords = chords_of(path.part(*rows), SAG)
+    chords = chords_of(path.part(*rows), MAX_CHORD_ERROR)
     if len(chords) < MIN_POINTS:
         return None
     region = Polygon(chords)
@@ -71,7 +71,7 @@ def _region(path: Path, rows: RowRange) -> Polygon | None:
 
 def _cuts_away(earlier: Polygon | None, later: Polygon | None, side: Side, radius: float) -> bool:
     """True if the second pass lies within the material of the first one, at most a cutter's diameter deeper."""
-    if earlier is None or later is None or earlier.exterior.distance(later.exterior) <= 2.0 * SAG:
+    if earlier is None or later is None or earlier.exterior.distance(later.exterior) <= 2.0 * MAX_CHORD_ERROR:
         return False
     counterclockwise = bool(earlier.exterior.is_ccw)
     if counterclockwise != later.exterior.is_ccw:

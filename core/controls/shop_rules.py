@@ -21,7 +21,7 @@ from core.geometry.piece import Point, Side
 from core.geometry.piece_arrays import piece_arrays
 from core.tolerance import JOINED
 
-SQUARE: Final = 1e-6
+MAX_SQUARE_COSINE: Final = 1e-6
 """Largest cosine between two directions at right angles."""
 
 
@@ -41,7 +41,7 @@ class PlaneMove:
     def square_to(self, direction: Floats) -> bool:
         """True if the move is at right angles to a unit direction (2,)."""
         run = np.subtract(self.end, self.start)
-        return bool(abs(run @ direction) <= SQUARE * np.hypot(*run))
+        return bool(abs(run @ direction) <= MAX_SQUARE_COSINE * np.hypot(*run))
 
 
 def check_shop_rules(run: ControlRun) -> tuple[Finding, ...]:

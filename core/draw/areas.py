@@ -21,13 +21,13 @@ from core.geometry.chords import chords_of
 from core.geometry.path import Floats, Path
 from core.geometry.piece import Side
 
-NOTHING: Final = MultiPolygon()
+EMPTY_REGION: Final = MultiPolygon()
 """The region without points."""
 SEGMENTS_A_QUARTER: Final = 16
 """Chords per quarter circle at the ends of a swept region."""
-MARGIN: Final = 4.0
+OUTSIDE_THICKNESS: Final = 4.0
 """Thickness of the material drawn outside a closed contour whose outside is the part, in tool radii."""
-ACROSS: Final = 2.0
+BEHIND_OPEN_THICKNESS: Final = 2.0
 """Thickness of the material drawn behind an open contour, in tool radii: no gouge is reported deeper."""
 MAX_STRETCHES: Final = 200
 """Uncut stretches that are shaded, the thickest first."""
@@ -37,14 +37,16 @@ def material(surface: Path, side: Side, radius: float, *, closed: bool, sag: flo
     """Return the part behind a surface, as far as a cutter of this radius can reach into it."""
     points = chords_of(surface, sag)
     if len(points) < 2 or (closed and len(points) < 4):
-        return NOTHING
+        return EMPTY_REGION
     if not closed:
-        return _strip_along(points, -ACROSS * radius if side is Side.LEFT else ACROSS * radius)
+        return _strip_along(
+            points, -BEHIND_OPEN_THICKNESS * radius if side is Side.LEFT else BEHIND_OPEN_THICKNESS * radius
+        )
     inside = shapely.make_valid(Polygon(points))
     left = _counter_clockwise(points)
     if left is not (side is Side.LEFT):
         return inside
-    return box(*inside.buffer(MARGIN * radius).bounds).difference(inside)
+    return box(*inside.buffer(OUTSIDE_THICKNESS * radius).bounds).difference(inside)
 
 
 def _strip_along(points: Floats, distance: float) -> BaseGeometry:

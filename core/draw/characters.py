@@ -13,11 +13,11 @@ import numpy as np
 from numpy.typing import NDArray
 
 from core.draw.scene import Mark, Scene, Style, Symbol
-from core.draw.view import TALL, View
+from core.draw.view import CELL_HEIGHT, View
 from core.geometry.piece import Point
 from core.units import Unit, from_mm
 
-BAR: Final = 0.3
+MAX_SCALE_BAR_SHARE: Final = 0.3
 """Largest share of the window's width that the scale bar takes."""
 LABEL_DISTANCE: Final = 2.5
 """Distance of a label from its point, in cell widths."""
@@ -38,7 +38,7 @@ class CellSheet:
 
 def write_signs(sheet: CellSheet, scene: Scene, view: View, mode: Mode) -> None:
     """Write a scene's axis names, scale bar, labels and marks over a picture's cells."""
-    columns, rows, look = sheet.columns, sheet.rows, CELLS[mode]
+    columns, rows, look = sheet.columns, sheet.rows, CELLS_OF_MODE[mode]
     if columns >= LEAST_COLUMNS and rows >= LEAST_ROWS:
         if scene.axes:
             _name_axes(sheet, view)
@@ -78,7 +78,7 @@ def scale_bar(scale: float, columns: int, unit: Unit, ends: str) -> str:
 
     `scale` is millimeters per cell width; the bar runs from the middle of its first cell to that of its last.
     """
-    length, decimals = round_length(from_mm(scale * max(columns * BAR, 1.0), unit))
+    length, decimals = round_length(from_mm(scale * max(columns * MAX_SCALE_BAR_SHARE, 1.0), unit))
     width = max(round(length / from_mm(scale, unit)), 1)
     return f"{ends[0]}{ends[1] * (width - 1)}{ends[2]} {length:.{decimals}f} {unit}"
 
@@ -146,7 +146,7 @@ class Cells:
     @property
     def dot(self) -> tuple[float, float]:
         """A dot's width and height in cell widths."""
-        return 1.0 / self.across, TALL / self.down
+        return 1.0 / self.across, CELL_HEIGHT / self.down
 
     @property
     def fine(self) -> bool:
@@ -192,7 +192,7 @@ def _ascii() -> Cells:
     return Cells(1, 1, np.array([0]), table, _SYMBOLS, ">>^<<<v>", "|-|", _table({0: " "}, "."))
 
 
-CELLS: Final[Mapping[Mode, Cells]] = MappingProxyType(
+CELLS_OF_MODE: Final[Mapping[Mode, Cells]] = MappingProxyType(
     {Mode.BRAILLE: _braille(), Mode.BLOCK: _block(), Mode.ASCII: _ascii()}
 )
 """The way each mode fills a cell."""

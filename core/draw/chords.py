@@ -1,8 +1,8 @@
 """Chords: the pieces of a scene as short straight chords inside a window, for all layers at once.
 
-Window coordinates: the window's center is 0, a cell is 1 wide and `TALL` high, the second axis points up; a point is
-one complex number.  Arcs are trimmed to the part near the window before they are divided, so that no zoom makes them
-expensive.
+Window coordinates: the window's center is 0, a cell is 1 wide and `CELL_HEIGHT` high, the second axis points up; a
+point is one complex number.  Arcs are trimmed to the part near the window before they are divided, so that no zoom
+makes them expensive.
 """
 
 from __future__ import annotations
@@ -14,17 +14,17 @@ from typing import Final
 
 import numpy as np
 
-from core.draw.scene import BEYOND, Layer
-from core.draw.view import TALL, View
+from core.draw.scene import LARGEST_DRAWN, Layer
+from core.draw.view import CELL_HEIGHT, View
 from core.geometry.path import Flags, Floats, Points, Rows, Turns, as_complex
 
-SAG: Final = 0.1
+MAX_CHORD_ERROR: Final = 0.1
 """Largest distance of a chord from its arc, in cell widths: less than half a dot of the finest mode."""
 MAX_TURN: Final = tau / 8
 """Largest angle of one chord, in radians."""
-SHORT: Final = 0.25
+MAX_SINGLE_CHORD: Final = 0.25
 """An arc shorter than this, in cell widths, becomes one chord: half a dot of the finest mode."""
-CONCENTRIC: Final = 1e-9
+MIN_CONCENTRIC_DIVISOR: Final = 1e-9
 """Least divisor for an arc about the window's center, which is either all visible or not at all."""
 
 
@@ -75,12 +75,12 @@ def chords(layers: Sequence[Layer], view: View, columns: int, rows: int) -> Chor
     """
     with np.errstate(invalid="ignore", over="ignore"):
         pieces = _pieces(layers, view)
-        bent = (pieces.radii * pieces.sweeps > SHORT) & (pieces.turns != 0)
+        bent = (pieces.radii * pieces.sweeps > MAX_SINGLE_CHORD) & (pieces.turns != 0)
     lines = pieces.only(~bent)
     straight = Chords(lines.starts, lines.ends - lines.starts, lines.layers, lines.along)
     if not bent.any():
         return straight
-    divided = _divided(pieces.only(bent), hypot(columns / 2, rows * TALL / 2) + 1.0)
+    divided = _divided(pieces.only(bent), hypot(columns / 2, rows * CELL_HEIGHT / 2) + 1.0)
     parts = ((getattr(straight, field.name), getattr(divided, field.name)) for field in fields(Chords))
     both = Chords(*(np.concatenate(pair) for pair in parts))
     return both.only(both.layers.argsort(kind="stable"))
@@ -111,7 +111,7 @@ def _wanted(layer: Layer) -> Flags:
 
 def _within(points: Points) -> Flags:
     """Return (n,) True for points that are drawn at all; a NaN is not."""
-    within: Flags = (np.abs(points.real) <= BEYOND) & (np.abs(points.imag) <= BEYOND)
+    within: Flags = (np.abs(points.real) <= LARGEST_DRAWN) & (np.abs(points.imag) <= LARGEST_DRAWN)
     return within
 
 
@@ -131,7 +131,9 @@ def _traveled(layer: Layer) -> Floats:
 def _divided(arcs: _Pieces, reach: float) -> Chords:
     """Divide arcs into chords, within `reach` of the window's center."""
     arcs, low, span = _visible(arcs, reach)
-    counts = np.ceil(span / np.minimum(np.sqrt(8.0 * SAG / np.maximum(arcs.radii, SAG)), MAX_TURN)).astype(np.intp)
+    counts = np.ceil(
+        span / np.minimum(np.sqrt(8.0 * MAX_CHORD_ERROR / np.maximum(arcs.radii, MAX_CHORD_ERROR)), MAX_TURN)
+    ).astype(np.intp)
     pace = span / np.maximum(counts, 1)
     arc = np.arange(len(counts)).repeat(counts)
     nth = np.arange(len(arc)) - (counts.cumsum() - counts)[arc]
@@ -155,7 +157,7 @@ def _visible(arcs: _Pieces, reach: float) -> tuple[_Pieces, Floats, Floats]:
     """
     distance, radii, sweeps = np.abs(arcs.centers), arcs.radii, arcs.sweeps
     within = reach * reach - (distance - radii) ** 2
-    part = np.minimum(np.maximum(within / np.maximum(4.0 * distance * radii, CONCENTRIC), 0.0), 1.0)
+    part = np.minimum(np.maximum(within / np.maximum(4.0 * distance * radii, MIN_CONCENTRIC_DIVISOR), 0.0), 1.0)
     inside = distance + radii <= reach
     whole, hidden = (part >= 1.0) | inside, (within <= 0.0) & ~inside
     half = 2.0 * np.arcsin(np.sqrt(part))

@@ -13,28 +13,28 @@ import numpy as np
 from numpy.typing import NDArray
 
 from core.draw.areas import inside
-from core.draw.characters import CELLS, Cells, CellSheet, Mode, write_signs
+from core.draw.characters import CELLS_OF_MODE, Cells, CellSheet, Mode, write_signs
 from core.draw.chords import Chords, chords
-from core.draw.scene import BEYOND, DOTTED, Area, Layer, Scene, Style
-from core.draw.view import TALL, View
+from core.draw.scene import DOTTED_STYLES, LARGEST_DRAWN, Area, Layer, Scene, Style
+from core.draw.view import CELL_HEIGHT, View
 from core.geometry.path import Floats, Rows
 
-DASH: Final = (3.0, 1.8)
+DASH_PERIOD: Final = (3.0, 1.8)
 """A dash's period and its lit part, in cell widths."""
 AXIS_DASH: Final = (4.0, 1.0)
-NUDGE: Final = 1e-6
+DOT_SHIFT: Final = 1e-6
 """Share of a dot by which all dots shift: rounding must not move a line that lies exactly between two rows of dots."""
-FAINT: Final = (Style.AXIS, Style.PATH, Style.LEAD, Style.RAPID)
+FAINT_STYLES: Final = (Style.AXIS, Style.PATH, Style.LEAD, Style.RAPID)
 """Roles that do not give a cell the surface's character."""
-STRUCK: Final = "#"
+DELETED_CHARACTER: Final = "#"
 """The character of cells with deleted surface if dots are too coarse for a dotted line."""
-DOTS: Final = (1.0, 0.4)
+DOT_PERIOD: Final = (1.0, 0.4)
 """The period and the lit part of a dotted line, in cell widths."""
-THICK: Final = (Style.UNCUT, Style.CURRENT)
+THICK_STYLES: Final = (Style.UNCUT, Style.CURRENT)
 """Roles drawn two dots thick."""
-SHADES: Final = {Style.GOUGE_AREA: ":", Style.UNCUT_AREA: "."}
+SHADE_CHARACTERS: Final = {Style.GOUGE_AREA: ":", Style.UNCUT_AREA: "."}
 """The character of a shaded cell if a cell has only one dot."""
-PHASE: Final = 0.25
+AXIS_PHASE: Final = 0.25
 """Phase of an axis's dashes at the window's edge, where rounding cannot decide whether a dot is lit."""
 
 Bits = NDArray[np.bool_]
@@ -59,22 +59,22 @@ def draw(scene: Scene, view: View, columns: int, rows: int, mode: Mode) -> Pictu
     """
     if columns < 1 or rows < 1:
         return Picture(("",) * max(rows, 0), np.zeros((max(rows, 0), max(columns, 0)), np.uint8))
-    look = CELLS[mode]
+    look = CELLS_OF_MODE[mode]
     layers = scene.outlined
     axes = _axes(view, look, columns, rows) if scene.axes else NO_AXES
     drawn = _thickened(chords(layers, view, columns, rows), layers, look)
-    visible = _clipped(drawn, columns / 2, rows * TALL / 2)
+    visible = _clipped(drawn, columns / 2, rows * CELL_HEIGHT / 2)
     shades = [(area.style, _shaded(area, view, look, columns, rows)) for area in scene.areas]
     lit, styles, strong, struck = _light(visible, layers, axes, shades, look, columns, rows)
     codes = np.packbits(lit, bitorder="little")
     characters = look.table[codes]
     if look.faint is not None:
         characters = np.where(strong | (styles == Style.AXIS.value), characters, look.faint[codes])
-    characters[struck] = STRUCK
+    characters[struck] = DELETED_CHARACTER
     if not look.by_dot:
         for style, dots in shades:
             shaded = dots >> 3
-            characters[shaded[codes[shaded] == 0]] = SHADES[style]
+            characters[shaded[codes[shaded] == 0]] = SHADE_CHARACTERS[style]
     sheet = CellSheet(columns, rows, characters.tolist(), bytearray(styles))
     write_signs(sheet, scene, view, mode)
     text = "".join(sheet.characters)
@@ -84,19 +84,19 @@ def draw(scene: Scene, view: View, columns: int, rows: int, mode: Mode) -> Pictu
 
 def _axes(view: View, look: Cells, columns: int, rows: int) -> Rows:
     """Return the bits that the X axis, left to right, and the Y axis, top to bottom, light inside the window."""
-    (x, y), limit, (wide, high) = view.center, BEYOND / view.scale, look.dot
-    across, up, half_width, half_height = -x / view.scale, -y / view.scale, columns / 2, rows * TALL / 2
+    (x, y), limit, (wide, high) = view.center, LARGEST_DRAWN / view.scale, look.dot
+    across, up, half_width, half_height = -x / view.scale, -y / view.scale, columns / 2, rows * CELL_HEIGHT / 2
     axes: list[tuple[complex, complex]] = []
     if abs(up) <= half_height and max(half_width, abs(up)) <= limit:
-        level = int((half_height - up) / high + NUDGE)
+        level = int((half_height - up) / high + DOT_SHIFT)
         axes.append((complex(-half_width, half_height - (level + 0.5) * high), complex(2.0 * half_width, 0.0)))
     if abs(across) <= half_width and max(half_height, abs(across)) <= limit:
-        upright = int((across + half_width) / wide + NUDGE)
+        upright = int((across + half_width) / wide + DOT_SHIFT)
         axes.append((complex((upright + 0.5) * wide - half_width, half_height), complex(0.0, -2.0 * half_height)))
     starts, runs = np.array(axes, np.complex128).reshape(-1, 2).T
     lines = Chords(starts, runs, np.zeros(len(axes), np.intp), np.zeros(len(axes)))
     chord, part, bits = _dots(lines, look, columns, rows)
-    return bits[np.mod(part * np.abs(runs)[chord] + PHASE, AXIS_DASH[0]) < AXIS_DASH[1]]
+    return bits[np.mod(part * np.abs(runs)[chord] + AXIS_PHASE, AXIS_DASH[0]) < AXIS_DASH[1]]
 
 
 def _clipped(lines: Chords, half_width: float, half_height: float) -> Chords:
@@ -134,7 +134,7 @@ def _thickened(lines: Chords, layers: Sequence[Layer], look: Cells) -> Chords:
     """Return the chords, with copies of those in thick roles one dot to the right and one dot down."""
     if not look.fine:
         return lines
-    thick = np.array([layer.style in THICK for layer in layers], np.bool_)
+    thick = np.array([layer.style in THICK_STYLES for layer in layers], np.bool_)
     again = lines.only(thick[lines.layers].nonzero()[0]) if len(layers) else lines
     wide, high = look.dot
     starts = np.concatenate([lines.starts, again.starts + wide, again.starts - 1j * high])
@@ -152,7 +152,7 @@ def _shaded(area: Area, view: View, look: Cells, columns: int, rows: int) -> Row
     spread = (down + across) % (2 if look.by_dot else 1) == 0
     if look.fine and not dense:
         spread = (across % 2 == 0) & ((down + across // 2) % 2 == 0)
-    (x, y), half_width, half_height = view.center, columns / 2, rows * TALL / 2
+    (x, y), half_width, half_height = view.center, columns / 2, rows * CELL_HEIGHT / 2
     along = x + ((across[spread] + 0.5) * wide - half_width) * view.scale
     up = y + (half_height - (down[spread] + 0.5) * high) * view.scale
     bits: Rows = _bits(look, columns, rows)[spread][inside(area.region, along, up)]
@@ -187,7 +187,7 @@ def _light(
     strong = None
     if look.faint is not None:
         strong = np.zeros(rows * columns, np.bool_)
-        strong[cell[~np.isin(role, FAINT)]] = True
+        strong[cell[~np.isin(role, FAINT_STYLES)]] = True
     return lit, styles, strong, cell[role == Style.DELETED.value] if not look.fine else NO_AXES
 
 
@@ -202,7 +202,7 @@ def _bits(look: Cells, columns: int, rows: int) -> Rows:
 def _dots(lines: Chords, look: Cells, columns: int, rows: int) -> tuple[Rows, Floats, Rows]:
     """Return each dot's chord, the fraction of the chord before the dot and the bit to light (m,), by chord."""
     (wide, high), start, run = look.dot, lines.starts, lines.runs
-    x, y = (start.real + columns / 2) / wide + NUDGE, (rows * TALL / 2 - start.imag) / high + NUDGE
+    x, y = (start.real + columns / 2) / wide + DOT_SHIFT, (rows * CELL_HEIGHT / 2 - start.imag) / high + DOT_SHIFT
     over, under = run.real / wide, run.imag / -high
     steps = np.ceil(np.maximum(np.abs(over), np.abs(under))).astype(np.intp)
     counts = steps + 1
@@ -222,8 +222,8 @@ def _dashes(lines: Chords, rows: Rows, chord: Rows, part: Floats, role: Styles) 
     lit_dots = np.ones(len(chord), np.bool_)
     owners = chord[rows]
     along = lines.along[owners] + part[rows] * np.abs(lines.runs[owners])
-    dotted = np.isin(role[rows], [style.value for style in DOTTED])
-    period, lit = (np.where(dotted, fine, coarse) for fine, coarse in zip(DOTS, DASH, strict=True))
+    dotted = np.isin(role[rows], [style.value for style in DOTTED_STYLES])
+    period, lit = (np.where(dotted, fine, coarse) for fine, coarse in zip(DOT_PERIOD, DASH_PERIOD, strict=True))
     lit_dots[rows] = np.mod(along, period) < lit
     return lit_dots
 
@@ -231,7 +231,7 @@ def _dashes(lines: Chords, rows: Rows, chord: Rows, part: Floats, role: Styles) 
 def _slants(lines: Chords) -> Rows:
     """Return the bit of each chord's line character: 0 level, 1 rising, 2 upright, 3 falling, as seen in tall cells."""
     across, up = lines.runs.real, lines.runs.imag
-    steep = np.abs(up) / TALL
+    steep = np.abs(up) / CELL_HEIGHT
     slants = np.where(across * up > 0.0, 1, 3)
     slants[steep > np.abs(across) * np.tan(3 * np.pi / 8)] = 2
     slants[steep <= np.abs(across) * np.tan(np.pi / 8)] = 0

@@ -18,12 +18,12 @@ from shapely.geometry.base import BaseGeometry
 from core.geometry.path import EMPTY, Floats, Path
 from core.geometry.path_parts import NO_PARTS, PathParts
 from core.geometry.piece import Line, Piece, Point
-from core.tolerance import LARGEST
+from core.tolerance import LARGEST_COORDINATE
 from core.units import Unit
 
 Box = tuple[float, float, float, float]
 
-BEYOND: Final = 10 * LARGEST
+LARGEST_DRAWN: Final = 10 * LARGEST_COORDINATE
 """A coordinate that is larger than this, or NaN, is neither drawn nor fitted into a view."""
 
 
@@ -51,7 +51,7 @@ class Style(IntEnum):
     """Alternative solutions of a segment or a run that are not chosen."""
 
 
-DOTTED: Final = frozenset({Style.DELETED, Style.UNTAKEN})
+DOTTED_STYLES: Final = frozenset({Style.DELETED, Style.UNTAKEN})
 """The styles whose dashed lines are dotted."""
 
 
@@ -169,7 +169,7 @@ def _around(boxes: Sequence[Floats]) -> Box | None:
     """Return the box around all boxes (n, 4) that can be drawn."""
     rows = np.concatenate([np.empty((0, 4)), *boxes])
     # comparisons with NaN are false
-    drawn = rows[(np.abs(rows) <= BEYOND).all(axis=1)]
+    drawn = rows[(np.abs(rows) <= LARGEST_DRAWN).all(axis=1)]
     if not len(drawn):
         return None
     (left, low), (right, high) = drawn[:, :2].min(axis=0).tolist(), drawn[:, 2:].max(axis=0).tolist()

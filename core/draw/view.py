@@ -13,13 +13,13 @@ from typing import Final
 from core.draw.scene import Box
 from core.geometry.piece import Point
 
-TALL: Final = 2.0
+CELL_HEIGHT: Final = 2.0
 """A cell's height over its width."""
-FINEST: Final = 1e-7
-COARSEST: Final = 1e8
+FINEST_SCALE: Final = 1e-7
+COARSEST_SCALE: Final = 1e8
 BEYOND_PART: Final = 1 / 7
 """Share of the window that may lie beyond the workpiece on each side."""
-MARGIN: Final = 0.04
+FREE_SHARE: Final = 0.04
 """Share of the window that `fit` leaves free on each side."""
 
 
@@ -34,7 +34,7 @@ class View:
     def fit(bounds: Box | None, columns: int, rows: int) -> View:
         """Return the largest view of `bounds` in columns x rows cells, with a margin; None gives a view around zero."""
         x0, y0, x1, y1 = bounds or (-1.0, -1.0, 1.0, 1.0)
-        wide, high = max(columns, 1) * (1 - 2 * MARGIN), max(rows, 1) * TALL * (1 - 2 * MARGIN)
+        wide, high = max(columns, 1) * (1 - 2 * FREE_SHARE), max(rows, 1) * CELL_HEIGHT * (1 - 2 * FREE_SHARE)
         scale = max((x1 - x0) / wide, (y1 - y0) / high)
         return View(((x0 + x1) / 2, (y0 + y1) / 2), _held(scale) if scale > 0.0 else 2.0 / wide)
 
@@ -49,11 +49,11 @@ class View:
     def pan(self, dx: float, dy: float, columns: int, rows: int) -> View:
         """Return the view moved over the part by fractions of the window: dx to the right, dy up."""
         x, y = self.center
-        return View((x + dx * columns * self.scale, y + dy * rows * TALL * self.scale), self.scale)
+        return View((x + dx * columns * self.scale, y + dy * rows * CELL_HEIGHT * self.scale), self.scale)
 
     def over(self, point: Point, bounds: Box, columns: int, rows: int) -> View:
         """Return the view centered on a point (mm), but no farther beyond `bounds` than a seventh of the window."""
-        half = columns * self.scale / 2, rows * TALL * self.scale / 2
+        half = columns * self.scale / 2, rows * CELL_HEIGHT * self.scale / 2
         x, y = (
             _slid(value, low, high, room)
             for value, low, high, room in zip(point, bounds[:2], bounds[2:], half, strict=True)
@@ -63,13 +63,13 @@ class View:
     def touches(self, bounds: Box, times: float) -> bool:
         """True if the window's center is within `times` the larger side of `bounds` from its center, in X and in Y."""
         (x, y), (x0, y0, x1, y1) = self.center, bounds
-        far = times * max(x1 - x0, y1 - y0, FINEST)
+        far = times * max(x1 - x0, y1 - y0, FINEST_SCALE)
         return abs(x - (x0 + x1) / 2) <= far and abs(y - (y0 + y1) / 2) <= far
 
     def at(self, column: float, row: float, columns: int, rows: int) -> Point:
         """Return the point (mm) at a position in the window: (0, 0) is top left, (0.5, 0.5) the first cell's middle."""
         x, y = self.center
-        return x + (column - columns / 2) * self.scale, y - (row - rows / 2) * TALL * self.scale
+        return x + (column - columns / 2) * self.scale, y - (row - rows / 2) * CELL_HEIGHT * self.scale
 
     def cell(self, point: Point, columns: int, rows: int) -> tuple[float, float]:
         """Return (column, row) of a point (mm), fractions included: the inverse of `at`."""
@@ -77,7 +77,13 @@ class View:
 
     def cells(self, points: Iterable[Point], columns: int, rows: int) -> list[tuple[float, float]]:
         """Return the same for several points."""
-        (x, y), wide, high, half_width, half_height = self.center, self.scale, TALL * self.scale, columns / 2, rows / 2
+        (x, y), wide, high, half_width, half_height = (
+            self.center,
+            self.scale,
+            CELL_HEIGHT * self.scale,
+            columns / 2,
+            rows / 2,
+        )
         return [((px - x) / wide + half_width, (y - py) / high + half_height) for px, py in points]
 
 
@@ -88,4 +94,4 @@ def _slid(value: float, low: float, high: float, room: float) -> float:
 
 
 def _held(scale: float) -> float:
-    return min(max(scale, FINEST), COARSEST)
+    return min(max(scale, FINEST_SCALE), COARSEST_SCALE)

@@ -11,8 +11,8 @@ from dataclasses import dataclass
 from math import cos, hypot, sin, sqrt
 from typing import TYPE_CHECKING, TypeVar
 
-from core.geometry.piece import SLIVER, Arc, Point, Turn
-from core.tolerance import ARC_RADII, CLOSED, GRAZE, INDEPENDENT, JOINED, ON_PATH
+from core.geometry.piece import FULL_TURN_GAP, Arc, Point, Turn
+from core.tolerance import ARC_RADII, CLOSED, GRAZE, JOINED, MIN_INDEPENDENT_SINE, ON_PATH
 
 if TYPE_CHECKING:
     from core.geometry.path import Points
@@ -66,8 +66,8 @@ def ray_to_coordinate(
     It is also if only the rounding of the start and the angle makes it change.
     """
     along = (cos(angle), sin(angle))
-    rounded = abs(along[axis]) < INDEPENDENT and abs(value - start[axis]) <= ARC_RADII
-    if rounded or abs(along[axis]) < SLIVER:
+    rounded = abs(along[axis]) < MIN_INDEPENDENT_SINE and abs(value - start[axis]) <= ARC_RADII
+    if rounded or abs(along[axis]) < FULL_TURN_GAP:
         return NotDetermined()
     travel = (value - start[axis]) / along[axis]
     if travel < 0.0:
@@ -126,7 +126,7 @@ def center_by_sweep(start: Point, end: Point, sweep: float, turn: Turn) -> OnePo
     """
     chord = hypot(end[0] - start[0], end[1] - start[1])
     half = sin(sweep / 2)
-    if chord <= ON_PATH or abs(half) < SLIVER:
+    if chord <= ON_PATH or abs(half) < FULL_TURN_GAP:
         return NotDetermined()
     return OnePoint(_above(start, end, turn * chord / 2 * cos(sweep / 2) / half))
 
@@ -137,7 +137,7 @@ def center_by_coordinate(start: Point, end: Point, axis: int, value: float) -> O
     Not if the chord runs along that axis: rounding of the ends would then decide where the point is.
     """
     across, along = end[1 - axis] - start[1 - axis], end[axis] - start[axis]
-    if abs(across) <= max(CLOSED, INDEPENDENT * abs(along)):
+    if abs(across) <= max(CLOSED, MIN_INDEPENDENT_SINE * abs(along)):
         return NotDetermined()
     middle = ((start[0] + end[0]) / 2, (start[1] + end[1]) / 2)
     return OnePoint(_placed(axis, value, middle[1 - axis] - (value - middle[axis]) * along / across))

@@ -21,10 +21,10 @@ import shapely
 from core.geometry.path import Floats, Points, Rows
 from core.geometry.piece_arrays import PieceArrays, at
 
-FAN: Final = 4
+MEMBERS_PER_RUN: Final = 4
 """Number of consecutive chords, or of consecutive runs, that make up a run."""
 
-RUN: Final = 8
+BOXES_PER_RUN: Final = 8
 """Consecutive boxes that one query of the tree covers together."""
 
 MAX_COARSE_RUNS: Final = 32
@@ -40,10 +40,10 @@ MAX_CHORD_LENGTHS: Final = 8.0
 """A piece longer than this many median lengths is split, since no single piece of the other path is nearest to all of
 it."""
 
-AROUND: Final = range(-FAN // 2, FAN + FAN // 2)
+NEIGHBOR_OFFSETS: Final = range(-MEMBERS_PER_RUN // 2, MEMBERS_PER_RUN + MEMBERS_PER_RUN // 2)
 """Offsets of a run's members and, on either side, of half as many members of the neighboring runs."""
 
-BLUR: Final = 1e-15
+ROUNDING_SHARE: Final = 1e-15
 """Largest rounding error of a difference of coordinates, as a share of the coordinates."""
 
 EVERYWHERE: Final = np.array([[-1e300], [-1e300], [1e300], [1e300]])
@@ -93,15 +93,15 @@ def near_pairs_within(boxes: Floats, reach: float) -> Batches:
     """
     if not boxes.shape[1]:
         return
-    begins = np.arange(0, boxes.shape[1], RUN)
+    begins = np.arange(0, boxes.shape[1], BOXES_PER_RUN)
     corners = np.minimum.reduceat(boxes[:2], begins, axis=1), np.maximum.reduceat(boxes[2:], begins, axis=1)
     runs = np.concatenate(corners)
     left, right = np.ascontiguousarray(boxes[0]), np.ascontiguousarray(boxes[2])
     for a, b in near_pairs(runs, runs, reach):
         once = a <= b
         a, b = a[once], b[once]
-        for first in range(0, len(a), BATCH_PAIRS // RUN):
-            part = slice(first, first + BATCH_PAIRS // RUN)
+        for first in range(0, len(a), BATCH_PAIRS // BOXES_PER_RUN):
+            part = slice(first, first + BATCH_PAIRS // BOXES_PER_RUN)
             i, j = _members_of_runs(a[part], b[part], boxes.shape[1])
             # most pairs are already too far apart along x
             near = ~(np.maximum(left[i] - right[j], left[j] - right[i]) > reach)
@@ -112,8 +112,8 @@ def near_pairs_within(boxes: Floats, reach: float) -> Batches:
 
 def _members_of_runs(a: Rows, b: Rows, count: int) -> tuple[Rows, Rows]:
     """Return all pairs i < j of boxes in the paired runs a, b; there are `count` boxes in all."""
-    i, j = np.divmod(np.arange(RUN * RUN), RUN)
-    i, j = (a[:, None] * RUN + i).ravel(), (b[:, None] * RUN + j).ravel()
+    i, j = np.divmod(np.arange(BOXES_PER_RUN * BOXES_PER_RUN), BOXES_PER_RUN)
+    i, j = (a[:, None] * BOXES_PER_RUN + i).ravel(), (b[:, None] * BOXES_PER_RUN + j).ravel()
     once = (i < j) & (j < count)
     return i[once], j[once]
 
@@ -194,7 +194,7 @@ class CoarseChords:
 
 
 ChordLevels = tuple[CoarseChords, ...]
-"""Chords of the pieces, of runs of FAN pieces, of FAN such runs and so on: the finest level first."""
+"""Chords of the pieces, of runs of `MEMBERS_PER_RUN` pieces, of runs of such runs and so on: the finest level first."""
 
 
 def chord_levels(chords: CoarseChords) -> ChordLevels:
@@ -206,16 +206,16 @@ def chord_levels(chords: CoarseChords) -> ChordLevels:
 
 
 def _grouped(members: CoarseChords) -> CoarseChords:
-    """Return one chord for every FAN members, from the start of the first to the end of the last.
+    """Return one chord for every `MEMBERS_PER_RUN` members, from the start of the first to the end of the last.
 
     A run without gaps passes abreast of every point of its chord, so its slack is the largest distance of its members
     from the chord; the largest gap adds to it.
     """
-    begins = np.arange(0, len(members), FAN)
+    begins = np.arange(0, len(members), MEMBERS_PER_RUN)
     lasts = np.append(begins[1:], len(members)) - 1
     starts, ends = members.ends
     chords = CoarseChords.between(starts[begins], ends[lasts], np.zeros(len(begins)))
-    group = np.arange(len(members)) // FAN
+    group = np.arange(len(members)) // MEMBERS_PER_RUN
     off = np.maximum(*(np.abs(chords.off(group, points)) for points in (starts, ends))) + members.slack
     gaps = np.append(0.0, np.abs(starts[1:] - ends[:-1]))
     gaps[begins] = 0.0
@@ -301,7 +301,7 @@ def _within(first: ChordLevels, second: ChordLevels) -> list[Floats]:
     while high or low:
         if high >= low:
             high -= 1
-            guess = guess[np.arange(len(first[high])) // FAN]
+            guess = guess[np.arange(len(first[high])) // MEMBERS_PER_RUN]
         else:
             low -= 1
             guess = _closest_member(first[high].middle, second[low].middle, guess)
@@ -309,15 +309,15 @@ def _within(first: ChordLevels, second: ChordLevels) -> list[Floats]:
     apart = np.maximum(*(np.abs(other_chords.off(guess, end)) for end in chords.ends))
     within = [apart + chords.slack + other_chords.slack[guess]]
     while len(within) < len(first):
-        within.append(np.maximum.reduceat(within[-1], np.arange(0, len(within[-1]), FAN)))
+        within.append(np.maximum.reduceat(within[-1], np.arange(0, len(within[-1]), MEMBERS_PER_RUN)))
     return within
 
 
 def _closest_member(points: Points, middles: Points, runs: Rows) -> Rows:
     """Return, for each point, the closest among the middles of its run's members and those around them."""
     closest, least = np.zeros(len(points), np.intp), np.full(len(points), np.inf)
-    for step in AROUND:
-        members = np.minimum(np.maximum(runs * FAN + step, 0), len(middles) - 1)
+    for step in NEIGHBOR_OFFSETS:
+        members = np.minimum(np.maximum(runs * MEMBERS_PER_RUN + step, 0), len(middles) - 1)
         apart = np.abs(points - middles.take(members))
         closer = apart < least
         closest, least = np.where(closer, members, closest), np.where(closer, apart, least)
@@ -344,7 +344,7 @@ def _contenders(
     apart = np.fmax(np.abs(off), np.finfo(float).tiny)
     slope = (off.conj() * half).real / apart
     # an offset as short as the rounding of coordinates has no direction
-    blur = BLUR * np.abs(middle) * np.abs(half) / apart
+    blur = ROUNDING_SHARE * np.abs(middle) * np.abs(half) / apart
     least = apart - blur - chords.slack.take(i) - other.slack.take(j)
     keep = (~(least - np.abs(slope) > limit)).nonzero()[0]
     i, j, apart, least, slope = i[keep], j[keep], apart[keep], least[keep], slope[keep]
@@ -363,7 +363,7 @@ def _contenders(
 
 def _members(runs: Rows, partners: Rows, count: int) -> tuple[Rows, Rows]:
     """Return the members of these runs and the partner of each; there are `count` members in all."""
-    members = (runs[:, None] * FAN + np.arange(FAN)).ravel()
-    partners = partners.repeat(FAN)
+    members = (runs[:, None] * MEMBERS_PER_RUN + np.arange(MEMBERS_PER_RUN)).ravel()
+    partners = partners.repeat(MEMBERS_PER_RUN)
     real = members < count
     return members[real], partners[real]

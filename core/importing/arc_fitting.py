@@ -1,6 +1,7 @@
 """Fits runs of many short lines with the longest arcs and lines that deviate from them by no more than FIT.
 
-A corner sharper than `CORNER` stays.  The ends of the new pieces are points of the run, so that everything still joins.
+A corner sharper than `MIN_CORNER_ANGLE` stays.  The ends of the new pieces are points of the run, so that everything
+still joins.
 """
 
 from __future__ import annotations
@@ -16,11 +17,11 @@ from numpy.typing import NDArray
 from core.geometry.piece import Arc, Line, Piece, Turn, point_of
 from core.importing.curves import MAX_RADIUS, Points
 
-CORNER: Final = radians(5.0)
+MIN_CORNER_ANGLE: Final = radians(5.0)
 MIN_LINES: Final = 3
 """Fewest lines that an arc replaces."""
 
-ROUNDS: Final = 40
+MAX_NARROWING_STEPS: Final = 40
 """Most steps that narrow down the best arc between two points."""
 
 
@@ -86,7 +87,7 @@ def _first_break(pieces: Sequence[Piece]) -> int | None:
 def _is_corner(before: Piece, after: Piece) -> bool:
     u = complex(*before.end) - complex(*before.start)
     v = complex(*after.end) - complex(*after.start)
-    return bool(abs(np.angle(v * u.conjugate())) > CORNER)
+    return bool(abs(np.angle(v * u.conjugate())) > MIN_CORNER_ANGLE)
 
 
 def _points(pieces: Sequence[Piece]) -> Points:
@@ -195,7 +196,7 @@ def _bent(points: Points, fit: float) -> _Fit | None:
         return None
     local = (points - points[0]) * (chord.conjugate() / size) - size / 2.0
     bend = np.angle(np.diff(local)[1:] * np.diff(local)[:-1].conj())
-    if not (_turns_one_way(bend) or np.abs(bend[bend * bend.sum() < 0.0]).max(initial=0.0) < CORNER):
+    if not (_turns_one_way(bend) or np.abs(bend[bend * bend.sum() < 0.0]).max(initial=0.0) < MIN_CORNER_ANGLE):
         return None
     turn = 1.0 if bend.sum() > 0.0 else -1.0
     if abs(bend.sum()) > tau * 0.95:
@@ -203,7 +204,7 @@ def _bent(points: Points, fit: float) -> _Fit | None:
     # heights of the arc above the chord, on the side to which it bulges
     local = np.where(turn > 0.0, local.conj(), local)
     low, high = 0.0, max(2.0 * float(local.imag.max()), 1e-9)
-    for _ in range(ROUNDS):
+    for _ in range(MAX_NARROWING_STEPS):
         first, second = low + (high - low) / 3.0, high - (high - low) / 3.0
         if _off_arc(local, size, first) <= _off_arc(local, size, second):
             high = second

@@ -29,15 +29,15 @@ from core.importing.joints import joined_chain, reversed_pieces
 from core.importing.loops import Chain, chained
 from core.importing.nesting import box_of, boxes_of, containers, crosses_itself, crossings
 from core.importing.nodes import KEY_DECIMALS, SAME_POINT
-from core.program.fields import FARTHEST
+from core.program.fields import LARGEST_LENGTH
 from core.units import Kind, Unit, decimals_shown, from_mm, show
 
-TOLERANCE: Final[Mapping[Unit, float]] = {Unit.IN: 0.0005 * 25.4, Unit.MM: 0.01}
+JOIN_TOLERANCE: Final[Mapping[Unit, float]] = {Unit.IN: 0.0005 * 25.4, Unit.MM: 0.01}
 """Largest distance in millimeters of ends that are joined, by the program's unit; the operator may change it."""
 
 MAX_TOLERANCE: Final[Mapping[Unit, float]] = {Unit.IN: 0.1 * 25.4, Unit.MM: 2.0}
 
-FIT: Final[Mapping[Unit, float]] = {Unit.IN: 0.0002 * 25.4, Unit.MM: 0.005}
+FIT_TOLERANCE: Final[Mapping[Unit, float]] = {Unit.IN: 0.0002 * 25.4, Unit.MM: 0.005}
 """Largest deviation in millimeters of arcs from a curve or a run of lines, by the program's unit."""
 
 BRANCH_REACH: Final = 2.0
@@ -64,7 +64,7 @@ class ImportOptions:
     def usual(unit: DrawingUnit, program: Unit | None = None) -> ImportOptions:
         """Return the options with the usual tolerances of a program's unit."""
         usual = program or unit.program_unit
-        return ImportOptions(unit, TOLERANCE[usual], FIT[usual], program=program)
+        return ImportOptions(unit, JOIN_TOLERANCE[usual], FIT_TOLERANCE[usual], program=program)
 
     @property
     def program_unit(self) -> Unit:
@@ -116,7 +116,7 @@ def contours_of(drawing: Drawing, options: ImportOptions, progress: Progress = s
     pieces = _pieces(shapes, options, progress)
     notes = list(drawing.notes)
     left, bottom, right, top = box_of([item.piece for item in pieces]) if pieces else (0.0, 0.0, 0.0, 0.0)
-    if max(left, bottom, -right, -top) > FARTHEST:
+    if max(left, bottom, -right, -top) > LARGEST_LENGTH:
         pieces = [item._replace(piece=moved_piece(item.piece, -left, -bottom)) for item in pieces]
         unit = options.program_unit
         x, y = (f"{from_mm(value, unit):.{decimals_shown(Kind.LENGTH, unit)}f}" for value in (left, bottom))

@@ -24,19 +24,19 @@ from core.importing.drawing import BSpline, EllipseArc
 Points = NDArray[np.complex128]
 Floats = NDArray[np.float64]
 
-SHARES: Final = np.linspace(0.0, 1.0, 25)
+SAMPLE_FRACTIONS: Final = np.linspace(0.0, 1.0, 25)
 """Where the distance of a biarc from the curve is sampled, as fractions of its parameter range in each span."""
 
-MARGIN: Final = 0.98
+SAMPLED_SHARE: Final = 0.98
 """Fraction of FIT that the sampled distance may reach; between two samples it is a little larger."""
 
-CORNER: Final = 1e-3
+MIN_CORNER_ANGLE: Final = 1e-3
 """A knot is a corner if the curve turns there by more than this, in radians."""
 
 MAX_BEND: Final = 0.55 * pi
 """Largest turn of a curve within one biarc, in radians."""
 
-STRAIGHT: Final = 1e-6
+MAX_LINE_DEVIATION: Final = 1e-6
 """A curve counts as a line if it deviates from its chord by no more than this, in millimeters."""
 
 MAX_RADIUS: Final = 100_000.0
@@ -45,25 +45,25 @@ MAX_RADIUS: Final = 100_000.0
 SAME_ARC: Final = 1e-6
 """Two arcs are one if centers and radii differ by no more than this in mm, times a radius above 1 mm."""
 
-ROUND: Final = 1e-9
+MAX_CIRCLE_DIFFERENCE: Final = 1e-9
 """An ellipse is a circle if its semi-diameters differ by no more than this fraction."""
 
-SHORTEST: Final = 10.0
+MIN_ARC_FACTOR: Final = 10.0
 """Shortest arc as a multiple of FIT; shorter ones remain only if FIT requires them."""
 
 MOVED_STOPS: Final = (0.5, 0.4, 0.6, 0.3, 0.7)
 """Fractions of the range of two neighboring biarcs at which a new stop between them is tried."""
 
-LONGER: Final = 1.5
+MIN_GROWTH_FACTOR: Final = 1.5
 """A stop is moved only if the shortest arc grows by more than this factor."""
 
 LONG_ENOUGH: Final = 0.6
 """The last biarc stays as it is if it has at least this fraction of the others' length."""
 
-ENOUGH: Final = 0.9
+LONGEST_ERROR_SHARE: Final = 0.9
 """A biarc counts as the longest if its error is at least this fraction of FIT."""
 
-GRID: Final = 32
+SAMPLES_PER_SPAN: Final = 32
 """Curvature samples per smooth span."""
 
 
@@ -88,7 +88,7 @@ class _EllipseCurve:
 
     def samples(self, first: float, last: float) -> Floats:
         """Return evenly spaced parameters."""
-        return first + (last - first) * SHARES
+        return first + (last - first) * SAMPLE_FRACTIONS
 
 
 @dataclass(frozen=True, eq=False, slots=True)
@@ -116,7 +116,7 @@ class _SplineCurve:
         """Return equally many parameters in each span, since a long span may be next to very short ones."""
         stops = np.array([first, *range(floor(first) + 1, ceil(last)), last])
         begins, sizes = stops[:-1, None], np.diff(stops)[:, None]
-        return np.append((begins + sizes * SHARES[:-1]).ravel(), last)
+        return np.append((begins + sizes * SAMPLE_FRACTIONS[:-1]).ravel(), last)
 
     def part(self, first: int, last: int) -> _SplineCurve:
         """Return spans first ... last - 1 as a curve; its end direction does not depend on the span after it."""
@@ -139,12 +139,12 @@ def pieces_of_ellipse(shape: EllipseArc, fit: float) -> list[Piece]:
     """Return an ellipse or part of one as arcs; a circle is one arc, or a line if huge (MAX_RADIUS) and flat (FIT)."""
     a, b = abs(shape.first), abs(shape.second)
     across = abs((shape.first.conjugate() * shape.second).real)
-    if abs(a - b) <= ROUND * max(a, b) and across <= ROUND * a * b:
+    if abs(a - b) <= MAX_CIRCLE_DIFFERENCE * max(a, b) and across <= MAX_CIRCLE_DIFFERENCE * a * b:
         arc, sweep = _circle(shape), shape.end - shape.begin
         nearly_straight = a > MAX_RADIUS and a * (1.0 - cos(sweep / 2.0)) <= fit
         return [Line(arc.start, arc.end) if nearly_straight else arc]
     flat = abs((shape.first.conjugate() * shape.second).imag)
-    if flat <= STRAIGHT * max(a, b):
+    if flat <= MAX_LINE_DEVIATION * max(a, b):
         return _flattened(shape)
     if (shape.first.conjugate() * shape.second).imag < 0.0:
         # a mirrored copy drawn over an arc gives the same arcs
@@ -164,7 +164,7 @@ def _ellipse_about_origin(first: complex, second: complex, begin: float, end: fl
     curve, stations = _EllipseCurve(shape), _ellipse_stations(shape)
     stops, quarter, row = stations[:1], list[float](), 0
     for number, (here, there) in enumerate(pairwise(stations)):
-        if abs(there - here - pi / 2) > ROUND:
+        if abs(there - here - pi / 2) > MAX_CIRCLE_DIFFERENCE:
             stops += _balanced_stops(curve, here, there, fit)[1:]
             continue
         if not quarter:
@@ -172,7 +172,7 @@ def _ellipse_about_origin(first: complex, second: complex, begin: float, end: fl
         turned = quarter if (number - row) % 2 == 0 else [pi / 2 - stop for stop in reversed(quarter)]
         stops += [*(here + stop for stop in turned[1:-1]), there]
     pieces = _biarcs(curve, stops, fit)
-    if end - begin >= tau * (1.0 - ROUND):
+    if end - begin >= tau * (1.0 - MAX_CIRCLE_DIFFERENCE):
         pieces = _merged([*pieces[:-1], replace(pieces[-1], end=pieces[0].start)])
     return tuple(pieces)
 
@@ -190,7 +190,7 @@ def _circle(shape: EllipseArc) -> Arc:
     start, end = _EllipseCurve(shape).at(np.array([shape.begin, shape.end]))[0].tolist()
     center = (shape.center.real, shape.center.imag)
     first = (start.real, start.imag)
-    whole = shape.end - shape.begin >= tau * (1.0 - ROUND)
+    whole = shape.end - shape.begin >= tau * (1.0 - MAX_CIRCLE_DIFFERENCE)
     return Arc(first, first if whole else (end.real, end.imag), center, turn)
 
 
@@ -211,8 +211,8 @@ def _ellipse_stations(shape: EllipseArc) -> list[float]:
     """Return the ends of part of an ellipse and the vertices between them, where its curvature is extreme."""
     u, v = shape.first, shape.second
     axis = 0.5 * atan2(2.0 * (u.conjugate() * v).real, abs(u) ** 2 - abs(v) ** 2)
-    first = ceil((shape.begin - axis) / (pi / 2) + ROUND)
-    last = ceil((shape.end - axis) / (pi / 2) - ROUND)
+    first = ceil((shape.begin - axis) / (pi / 2) + MAX_CIRCLE_DIFFERENCE)
+    last = ceil((shape.end - axis) / (pi / 2) - MAX_CIRCLE_DIFFERENCE)
     vertices = [axis + step * pi / 2 for step in range(first, last)]
     return [shape.begin, *vertices, shape.end]
 
@@ -234,10 +234,10 @@ def _fitted(curve: _SplineCurve, fit: float) -> list[Piece]:
     """Return a smooth curve as arcs and lines: split at its curvature extremes or not, whichever needs fewer."""
     end = float(curve.control.shape[1])
     stations = _extremes(curve, 0.0, end)
-    divided = [_stops(curve, here, there, fit * MARGIN) for here, there in pairwise(stations) if there > here]
-    whole = [_stops(curve, 0.0, end, fit * MARGIN)] if len(divided) > 1 else divided
+    divided = [_stops(curve, here, there, fit * SAMPLED_SHARE) for here, there in pairwise(stations) if there > here]
+    whole = [_stops(curve, 0.0, end, fit * SAMPLED_SHARE)] if len(divided) > 1 else divided
     chosen = min((divided, whole), key=lambda runs: sum(len(run) - 1 for run in runs))
-    balanced = [_balanced(curve, run, fit * MARGIN) for run in chosen]
+    balanced = [_balanced(curve, run, fit * SAMPLED_SHARE) for run in chosen]
     return _biarcs(curve, [0.0, *(stop for run in balanced for stop in run[1:])], fit)
 
 
@@ -272,7 +272,7 @@ def _smooth_runs(curve: _SplineCurve) -> list[tuple[int, int]]:
     spread = np.maximum(np.ptp(flat.real, axis=0), np.ptp(flat.imag, axis=0))
     runs: list[tuple[int, int]] = []
     for span in range(count):
-        if spread[span] <= STRAIGHT * 1e-3:
+        if spread[span] <= MAX_LINE_DEVIATION * 1e-3:
             continue
         if runs and runs[-1][1] == span and _is_smooth(curve, span):
             runs[-1] = (runs[-1][0], span + 1)
@@ -285,12 +285,12 @@ def _is_smooth(curve: _SplineCurve, span: int) -> bool:
     near = np.array([span - 1e-6, span + 1e-6])
     before, after = curve.at(near)[1].tolist()
     turned = before.conjugate() * after
-    return abs(atan2(turned.imag, turned.real)) <= CORNER and abs(turned) > 0.0
+    return abs(atan2(turned.imag, turned.real)) <= MIN_CORNER_ANGLE and abs(turned) > 0.0
 
 
 def _extremes(curve: Curve, first: float, last: float) -> list[float]:
     """Return the ends of a stretch and, between them, where its curvature is extreme or changes sign."""
-    at = np.linspace(first, last, max(int(last - first) * GRID, GRID) + 1)
+    at = np.linspace(first, last, max(int(last - first) * SAMPLES_PER_SPAN, SAMPLES_PER_SPAN) + 1)
     _, tangents = curve.at(at)
     size = np.abs(tangents)
     size[size == 0.0] = 1.0
@@ -309,7 +309,7 @@ def _biarcs(curve: Curve, stops: list[float], fit: float) -> list[Piece]:
 
 
 def _without_short_arcs(curve: Curve, stops: list[float], fit: float) -> list[float]:
-    """Remove the stops that make arcs shorter than `SHORTEST` times FIT, if FIT allows it.
+    """Remove the stops that make arcs shorter than `MIN_ARC_FACTOR` times FIT, if FIT allows it.
 
     A biarc with such an arc is merged with its neighbor, or the stop between the two is moved.
     """
@@ -317,7 +317,7 @@ def _without_short_arcs(curve: Curve, stops: list[float], fit: float) -> list[fl
     row = 0
     while row < len(biarcs):
         change = None
-        if _shortest(biarcs[row]) < SHORTEST * fit:
+        if _shortest(biarcs[row]) < MIN_ARC_FACTOR * fit:
             change = next(filter(None, (_replacement(curve, stops, biarcs, at, fit) for at in (row, row + 1))), None)
         if change is None:
             row += 1
@@ -338,15 +338,15 @@ def _replacement(
     if not 0 < at < len(stops) - 1:
         return None
     begin, end = stops[at - 1], stops[at + 1]
-    if _biarc_between(curve, begin, end)[1] <= fit * MARGIN:
+    if _biarc_between(curve, begin, end)[1] <= fit * SAMPLED_SHARE:
         return at, []
     worst = min(_shortest(biarcs[at - 1]), _shortest(biarcs[at]))
     for share in MOVED_STOPS:
         middle = begin + share * (end - begin)
         halves = [_biarc_between(curve, begin, middle), _biarc_between(curve, middle, end)]
-        if all(error <= fit * MARGIN for _, error in halves):
+        if all(error <= fit * SAMPLED_SHARE for _, error in halves):
             shortest = min(_shortest(pieces) for pieces, _ in halves)
-            if shortest > LONGER * worst:
+            if shortest > MIN_GROWTH_FACTOR * worst:
                 return at, [middle]
     return None
 
@@ -356,7 +356,7 @@ def _shortest(pieces: list[Piece]) -> float:
 
 
 def _balanced_stops(curve: Curve, begin: float, end: float, fit: float) -> list[float]:
-    return _balanced(curve, _stops(curve, begin, end, fit * MARGIN), fit * MARGIN)
+    return _balanced(curve, _stops(curve, begin, end, fit * SAMPLED_SHARE), fit * SAMPLED_SHARE)
 
 
 def _balanced(curve: Curve, stops: list[float], fit: float) -> list[float]:
@@ -386,13 +386,16 @@ def _stops(curve: Curve, begin: float, end: float, fit: float) -> list[float]:
 
 
 def _longest(curve: Curve, here: float, step: float, most: float, fit: float) -> float:
-    """Return the longest step within FIT, to `ENOUGH` of FIT; a biarc's error grows with the cube of its length."""
+    """Return the longest step within FIT, to `LONGEST_ERROR_SHARE` of FIT.
+
+    A biarc's error grows with the cube of its length.
+    """
     low, high = 0.0, 0.0
     for _ in range(60):
         error = _biarc_between(curve, here, here + step)[1]
         if error <= fit:
             low = step
-            if step >= most or error >= ENOUGH * fit:
+            if step >= most or error >= LONGEST_ERROR_SHARE * fit:
                 break
         else:
             high = step
@@ -414,7 +417,7 @@ def _biarc_between(curve: Curve, first: float, last: float) -> tuple[list[Piece]
         return [_line(start, end)], float(np.abs(points - start).max())
     if np.abs(np.arctan2(turned.imag, turned.real)).sum() > MAX_BEND and last - first > 1e-9:
         return [], float("inf")
-    if _off_chord(points) <= STRAIGHT:
+    if _off_chord(points) <= MAX_LINE_DEVIATION:
         return [_line(start, end)], 0.0
     t1, t2 = complex(tangents[0]), complex(tangents[-1])
     pieces = biarc(start, end, t1 / abs(t1), t2 / abs(t2))
@@ -506,7 +509,7 @@ def _merged(pieces: list[Piece]) -> list[Piece]:
 def _joined_pair(first: Piece, second: Piece) -> Piece | None:
     if isinstance(first, Line) and isinstance(second, Line):
         points = np.array([complex(*first.start), complex(*first.end), complex(*second.end)])
-        return Line(first.start, second.end) if _off_chord(points) <= STRAIGHT else None
+        return Line(first.start, second.end) if _off_chord(points) <= MAX_LINE_DEVIATION else None
     if not (isinstance(first, Arc) and isinstance(second, Arc)) or first.turn is not second.turn:
         return None
     apart = hypot(first.center[0] - second.center[0], first.center[1] - second.center[1])

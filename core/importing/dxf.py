@@ -36,7 +36,7 @@ from core.importing.drawing import (
 )
 from core.importing.dxf_document import damaged_file, document_of, too_much, words_of
 from core.importing.dxf_tags import Scan, ScannedEntity, is_dxf
-from core.tolerance import LARGEST
+from core.tolerance import LARGEST_COORDINATE
 
 if TYPE_CHECKING:
     from ezdxf.document import Drawing as Document
@@ -48,13 +48,13 @@ if TYPE_CHECKING:
     from ezdxf.entities.spline import Spline
     from ezdxf.math import OCS, Matrix44, Vec3
 
-FLAT: Final = 1e-4
+MAX_FLAT_HEIGHT: Final = 1e-4
 """Largest difference in Z of one entity's points, in the drawing's unit; a larger one is a slope, not rounding."""
 
 LARGEST_SAGITTA: Final = 0.005
 """Largest sagitta, in the drawing's unit, of an arc read as a line because its center is out of range."""
 
-ROUND: Final = 1e-9
+FULL_TURN_GAP: Final = 1e-9
 """A sweep within this of 0 or of a full turn, in radians, is the full circle."""
 
 ROUNDED_TURN: Final = 1e-4
@@ -186,7 +186,7 @@ class _Reader:
     def drawing(self, scan: Scan) -> Drawing:
         """Return everything that was read."""
         notes = [f"{text}" if count == 1 else f"{count} times: {text}" for text, count in self.notes.items()]
-        if self.heights and max(self.heights) - min(self.heights) > FLAT:
+        if self.heights and max(self.heights) - min(self.heights) > MAX_FLAT_HEIGHT:
             low, high = min(self.heights), max(self.heights)
             notes.append(f"The entities lie at heights from Z {low:g} to {high:g}: Z is dropped.")
         code, other = scan.units, ""
@@ -245,7 +245,7 @@ class _Reader:
         if len(self.shapes) + len(shapes) > MAX_SHAPES:
             raise too_much("lines and curves", len(self.shapes) + len(shapes), MAX_SHAPES)
         if not all(map(_finite, shapes)):
-            self._unreadable(entity, f"a coordinate is larger than {LARGEST:g} or no number")
+            self._unreadable(entity, f"a coordinate is larger than {LARGEST_COORDINATE:g} or no number")
             return
         self.taken += 1
         self.shapes += [Drawn(shape, layer, self.taken) for shape in shapes]
@@ -304,7 +304,7 @@ class _Reader:
 
     def _level(self, *heights: float) -> None:
         """Raise if the heights differ; keep the first one."""
-        if max(heights) - min(heights) > FLAT:
+        if max(heights) - min(heights) > MAX_FLAT_HEIGHT:
             raise _NotFlatError("does not lie in the XY plane")
         self.heights += heights[:1]
 
@@ -464,14 +464,14 @@ def _moved(point: Vec3, matrix: Matrix44 | None) -> Vec3:
 
 def _is_straight(chord: float, bulge: float) -> bool:
     """True if an arc has no length, or is so flat that its center is out of the range of coordinates."""
-    return abs(bulge) * chord / 2.0 <= min(chord * chord / (4.0 * LARGEST), LARGEST_SAGITTA)
+    return abs(bulge) * chord / 2.0 <= min(chord * chord / (4.0 * LARGEST_COORDINATE), LARGEST_SAGITTA)
 
 
 def _turned(begin: float, end: float) -> tuple[float, float]:
     """Return two angles as a counterclockwise turn; equal ones, or ones a full turn apart, give the full circle."""
     swept = (end - begin) % tau
     # not for a begin a full turn after the end: a short arc over angle 0 has such angles
-    if swept <= ROUND or tau - swept <= ROUND or abs(end - begin - tau) <= ROUNDED_TURN:
+    if swept <= FULL_TURN_GAP or tau - swept <= FULL_TURN_GAP or abs(end - begin - tau) <= ROUNDED_TURN:
         swept = tau
     return begin, begin + swept
 
@@ -484,4 +484,4 @@ def _finite(shape: Shape) -> bool:
             values = (abs(shape.center), abs(shape.first), abs(shape.second), shape.begin, shape.end)
         case BSpline():
             values = (float(np.abs(shape.points).max()), float(shape.weights.max()), float(np.abs(shape.knots).max()))
-    return all(isfinite(value) and abs(value) <= LARGEST for value in values)
+    return all(isfinite(value) and abs(value) <= LARGEST_COORDINATE for value in values)

@@ -16,9 +16,9 @@ from typing import TYPE_CHECKING, Final
 from core.importing.drawing import MAX_ENTITIES, DrawingError
 from core.importing.dxf_tags import (
     BINARY_MARK,
-    HANDLE,
-    MARKER,
-    MARKERS,
+    HANDLE_CODE,
+    MARKER_CODE,
+    MARKERS_OF_ENTITY,
     NO_HANDLE,
     Scan,
     scan_tags,
@@ -31,7 +31,7 @@ if TYPE_CHECKING:
     from ezdxf.lldxf.types import DXFTag
 
 R2000: Final = "AC1015"
-LAYER: Final = 8
+LAYER_CODE: Final = 8
 _OWN_CODES: Final = frozenset({10, 11, 12, 13, 38, 39, 40, 41, 42, 43, 44, 70, 71, 72, 73, 74, 90, 91, 210})
 """Group codes with which the own data of an LWPOLYLINE or a SPLINE may begin."""
 
@@ -97,7 +97,7 @@ def _normalized(tags: Iterable[DXFTag], scan: Scan) -> Iterator[DXFTag]:
             is_header = any(_stripped(tag) == (2, "HEADER") for tag in entity[1:2])
             yield from _as_r2000(entity) if is_header and scan.becomes_r2000 else entity
         else:
-            yield from _with_markers([tag for tag in entity if _stripped(tag) != (HANDLE, NO_HANDLE)])
+            yield from _with_markers([tag for tag in entity if _stripped(tag) != (HANDLE_CODE, NO_HANDLE)])
         if kind == "EOF":
             return
 
@@ -115,14 +115,16 @@ def _with_markers(entity: list[DXFTag]) -> list[DXFTag]:
     from ezdxf.lldxf.types import DXFTag
 
     kind = entity[0].value.strip()
-    if kind not in MARKERS:
+    if kind not in MARKERS_OF_ENTITY:
         return entity
     codes, named = [tag.code for tag in entity], set(map(_stripped, entity))
-    common, own = ([] if (MARKER, name) in named else [DXFTag(MARKER, name)] for name in MARKERS[kind])
+    common, own = (
+        [] if (MARKER_CODE, name) in named else [DXFTag(MARKER_CODE, name)] for name in MARKERS_OF_ENTITY[kind]
+    )
     first = next((row for row, code in enumerate(codes) if code in _OWN_CODES), len(codes))
-    if own and (first == len(codes) or LAYER in codes[first:]):
+    if own and (first == len(codes) or LAYER_CODE in codes[first:]):
         return entity
-    begin = 2 if codes[1] == HANDLE else 1
+    begin = 2 if codes[1] == HANDLE_CODE else 1
     return [*entity[:begin], *common, *entity[begin:first], *own, *entity[first:]]
 
 

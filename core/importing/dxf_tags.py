@@ -17,13 +17,13 @@ from typing import Final, NamedTuple
 BINARY_MARK: Final = b"AutoCAD Binary DXF\r\n\x1a\x00"
 
 R12: Final = "AC1009"
-COMMENT: Final = 999
-HANDLE: Final = 5
+COMMENT_CODE: Final = 999
+HANDLE_CODE: Final = 5
 NO_HANDLE: Final = "0"
 """A handle that means none: no entity may have it, but some programs write it into each."""
-MARKER: Final = 100
+MARKER_CODE: Final = 100
 """The group code of a subclass marker, such as AcDbPolyline."""
-MARKERS: Final = MappingProxyType(
+MARKERS_OF_ENTITY: Final = MappingProxyType(
     {"LWPOLYLINE": ("AcDbEntity", "AcDbPolyline"), "SPLINE": ("AcDbEntity", "AcDbSpline")}
 )
 """The markers without which ezdxf does not read an entity: before its common data, and before its own."""
@@ -106,7 +106,7 @@ class Scan:
     marked: bool = False
     """An entity has subclass markers (group code 100), which R12 does not know."""
     unmarked: bool = False
-    """An entity lacks one of its `MARKERS`."""
+    """An entity lacks one of its `MARKERS_OF_ENTITY`."""
     irregular: bool = False
     """An entity has the handle 0, or a POLYLINE has no SEQEND."""
     bad_line: int = 0
@@ -122,7 +122,7 @@ class Scan:
 
     @property
     def becomes_r2000(self) -> bool:
-        """True if the version is R12 or none, which has neither subclass markers nor the kinds in `MARKERS`."""
+        """True if an R12 file, or one of no version, has subclass markers or entities that R12 does not have."""
         return self.version in (None, "", R12) and (self.marked or self.unmarked)
 
     @property
@@ -144,7 +144,7 @@ def is_dxf(data: bytes) -> bool:
     """True if the data begins like a DXF file: with its binary mark, or with a SECTION after comments."""
     if data.startswith(BINARY_MARK):
         return True
-    first = next((tag for tag in _tags(text_lines(data[:65536]), Scan()) if tag.code != COMMENT), None)
+    first = next((tag for tag in _tags(text_lines(data[:65536]), Scan()) if tag.code != COMMENT_CODE), None)
     return first is not None and first[:2] == (0, "SECTION")
 
 
@@ -159,7 +159,7 @@ def scan_text(data: bytes) -> Scan:
 def scan_tags(tags: Iterable[tuple[int, object]]) -> Scan:
     """Scan the tags of a binary file."""
     scan = Scan()
-    _Scanner(scan).run(Tag(code, str(value), 0) for code, value in tags if code != COMMENT)
+    _Scanner(scan).run(Tag(code, str(value), 0) for code, value in tags if code != COMMENT_CODE)
     return scan
 
 
@@ -255,7 +255,7 @@ class _Scanner:
             return
         if marker.value == "SECTION":
             self.section = next((tag.value for tag in body if tag.code == 2), "")
-            named = [tag for tag in body if tag.code != COMMENT]
+            named = [tag for tag in body if tag.code != COMMENT_CODE]
             if self.section == "HEADER":
                 self._header(body)
             elif self.section in ("ENTITIES", "BLOCKS") and len(named) > 1:
@@ -263,7 +263,7 @@ class _Scanner:
             elif self.section not in _SECTIONS:
                 self.scan.unknown_sections.append(self.section)
             return
-        self.scan.irregular |= any(tag[:2] == (HANDLE, NO_HANDLE) for tag in body)
+        self.scan.irregular |= any(tag[:2] == (HANDLE_CODE, NO_HANDLE) for tag in body)
         if marker.value == "BLOCK" and self.section == "BLOCKS":
             self.block = next((tag.value for tag in body if tag.code == 2), "").lower()
             self.scan.blocks.setdefault(self.block, [])
@@ -281,8 +281,10 @@ class _Scanner:
     def _check(self, kind: str, body: list[Tag]) -> None:
         assert self.entity is not None
         counts = Counter(tag.code for tag in body)
-        self.scan.marked |= MARKER in counts
-        self.scan.unmarked |= any((MARKER, name) not in (tag[:2] for tag in body) for name in MARKERS.get(kind, ()))
+        self.scan.marked |= MARKER_CODE in counts
+        self.scan.unmarked |= any(
+            (MARKER_CODE, name) not in (tag[:2] for tag in body) for name in MARKERS_OF_ENTITY.get(kind, ())
+        )
         if kind == self.entity.kind and any(tag.code == 67 and tag.value == "1" for tag in body):
             self.entity.paper = True
         fault = _fault(kind, counts, body)

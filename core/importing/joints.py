@@ -17,7 +17,7 @@ from core.geometry.piece import Arc, Line, Piece, Point
 from core.importing.clean_up import is_circle, reversed_piece
 from core.tolerance import JOINED, ON_PATH
 
-CROSSING: Final = radians(5.0)
+MIN_CROSSING_ANGLE: Final = radians(5.0)
 """Above this angle the corner of a drawing is where the two carriers meet."""
 
 
@@ -60,7 +60,7 @@ def _joint(first: Piece, second: Piece, tolerance: float) -> Point:
     if gap <= ON_PATH:
         return there if isinstance(second, Arc) and isinstance(first, Line) else here
     middle = ((here[0] + there[0]) / 2.0, (here[1] + there[1]) / 2.0)
-    if gap > JOINED and _angle_between(first, second) > CROSSING:
+    if gap > JOINED and _angle_between(first, second) > MIN_CROSSING_ANGLE:
         meetings = [
             point for point in carriers_meet(first, second) if max(dist(point, here), dist(point, there)) <= tolerance
         ]

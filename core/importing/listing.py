@@ -21,7 +21,7 @@ from core.units import Kind, Unit, decimals_shown, from_mm, show
 SAME_SIZE: Final = 1e-4
 """Step in millimeters to which radii are rounded to find equal circles."""
 
-SAMPLES: Final = 33
+ELLIPSE_SAMPLES: Final = 33
 """Points on an ellipse that give its size when the unit is asked."""
 
 
@@ -171,7 +171,7 @@ def _box(shape: Shape) -> tuple[float, float, float, float]:
         case Line(start, end):
             points = [complex(*start), complex(*end)]
         case EllipseArc(center, first, second, begin, end):
-            steps = [begin + (end - begin) * step / (SAMPLES - 1) for step in range(SAMPLES)]
+            steps = [begin + (end - begin) * step / (ELLIPSE_SAMPLES - 1) for step in range(ELLIPSE_SAMPLES)]
             points = [center + cos(at) * first + sin(at) * second for at in steps]
         case BSpline(points=rows):
             points = rows.tolist()

@@ -35,10 +35,10 @@ SAME_CONTOUR: Final = 0.001
 LEAD_SLACK: Final = 0.002
 """Largest difference in millimeters of the radii of a lead-in and its lead-out."""
 
-QUARTER: Final = 0.01
+QUARTER_TURN_TOLERANCE: Final = 0.01
 """Largest difference of a lead's arc from a quarter turn, in radians."""
 
-TANGENT: Final = 0.01
+MAX_TANGENT_ANGLE: Final = 0.01
 """Largest angle between a lead and the contour at their joint, in radians."""
 
 
@@ -196,7 +196,7 @@ def _without_leads(cuts: list[Cut], side: Side) -> list[Cut]:
     if not (isinstance(first, Arc) and isinstance(last, Arc)) or abs(first.radius - last.radius) > LEAD_SLACK:
         return cuts
     quarters = all(
-        int(arc.turn) == side.sign and abs(abs(arc.sweep) - pi / 2.0) <= QUARTER for arc in (first, last)
+        int(arc.turn) == side.sign and abs(abs(arc.sweep) - pi / 2.0) <= QUARTER_TURN_TOLERANCE for arc in (first, last)
     )  # fmt: skip
     tangent = _tangent(first, cuts[1].piece) and _tangent(cuts[-2].piece, last)
     return cuts[1:-1] if quarters and tangent else cuts
@@ -204,7 +204,7 @@ def _without_leads(cuts: list[Cut], side: Side) -> list[Cut]:
 
 def _tangent(first: Piece, second: Piece) -> bool:
     (ux, uy), (vx, vy) = first.direction_at(first.end), second.direction_at(second.start)
-    return abs(ux * vy - uy * vx) <= TANGENT and ux * vx + uy * vy > 0.0
+    return abs(ux * vy - uy * vx) <= MAX_TANGENT_ANGLE and ux * vx + uy * vy > 0.0
 
 
 def _center_passes(result: ControlRun, center: CenterPathTool, words: _Words) -> Iterator[NcContour]:

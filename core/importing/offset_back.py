@@ -12,7 +12,7 @@ from math import dist
 from typing import Final
 
 from core.comp.compensate import compensate
-from core.comp.lookahead import HIGHEST, LOWEST, calculated
+from core.comp.lookahead import MAX_LOOKAHEAD, MIN_LOOKAHEAD, calculated
 from core.controls.compared_contours import Parting, apart
 from core.geometry.carrier import carriers_meet
 from core.geometry.path import Path
@@ -141,7 +141,7 @@ def _proved(contour: Sequence[Cut], cuts: Sequence[Cut], side: Side, radius: flo
     path = Path.from_pieces([cut.piece for cut in cuts], [float(cut.line) for cut in cuts])
     calculated_value = calculated(len(contour), closed=closed)
     best: Parting | None = None
-    for value in dict.fromkeys((calculated_value, *range(LOWEST, HIGHEST + 1))):
+    for value in dict.fromkeys((calculated_value, *range(MIN_LOOKAHEAD, MAX_LOOKAHEAD + 1))):
         again = compensate(surface, side, radius, value, closed=closed).path
         if not len(again):
             continue

@@ -14,7 +14,7 @@ from core.finding import Severity
 from core.geometry.piece import Arc, Piece, Point, Side, Turn
 from core.importing.contour import Contour
 from core.program.edit import new_block
-from core.program.fields import FARTHEST
+from core.program.fields import LARGEST_LENGTH
 from core.program.model import ArcSegment, Block, CutterComp, Direction, LineSegment, Number, Program, Segment
 from core.program.solve.block import solve_block
 from core.tolerance import ARC_RADII, CLOSED, GOUGE
@@ -93,9 +93,9 @@ def _refuse_far(contour: Contour, unit: Unit) -> None:
     for piece in contour.pieces:
         points = (piece.start, piece.end, *((piece.center,) if isinstance(piece, Arc) else ()))
         worst = max((value for point in points for value in point), key=abs)
-        if abs(worst) > FARTHEST:
-            most = from_mm(FARTHEST, unit)
-            if isinstance(piece, Arc) and max(map(abs, (*piece.start, *piece.end))) <= FARTHEST:
+        if abs(worst) > LARGEST_LENGTH:
+            most = from_mm(LARGEST_LENGTH, unit)
+            if isinstance(piece, Arc) and max(map(abs, (*piece.start, *piece.end))) <= LARGEST_LENGTH:
                 raise DoesNotFitError(
                     f"Chain {contour.number} has an arc of radius {from_mm(piece.radius, unit):.3f} {unit}, whose "
                     f"center lies farther away than the form takes, {most:g}. Draw it as lines."

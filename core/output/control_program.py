@@ -12,7 +12,7 @@ from core.controls.control_names import shown_name
 from core.controls.registry import is_klartext
 from core.controls.write.contour_pass import CompensatedPass, PassToWrite
 from core.controls.write.iso_program import Frame, offsets
-from core.controls.write.iso_style import STYLES, Radius
+from core.controls.write.iso_style import STYLE_OF_CONTROL, Radius
 from core.controls.write.written_program import NotWritten, write_program
 from core.finding import Finding, Severity
 from core.output.grid import Grid, length_text
@@ -22,7 +22,7 @@ from core.output.passes import Job, level_floor
 from core.program.model import Coolant
 from core.units import Unit, printable, sentence
 
-CLIMBS: Final = (
+CLIMBS_TEXT: Final = (
     "A segment climbs or falls (Z END) under compensation, where the heights at corners are the control's own.  "
     "Post the center path, or choose CUTTER COMP. ON."
 )
@@ -36,7 +36,7 @@ def control_program_errors(jobs: Sequence[Job], unit: Unit) -> tuple[Finding, ..
     errors = list(posting_errors(jobs, Grid(unit), override=None))
     for job in jobs:
         if job.comp != "ON" and not level_floor(job):
-            errors.append(Finding("NOTWRITTEN", Severity.ERROR, CLIMBS, block=job.block))
+            errors.append(Finding("NOTWRITTEN", Severity.ERROR, CLIMBS_TEXT, block=job.block))
     return tuple(dict.fromkeys(errors))
 
 
@@ -69,7 +69,7 @@ def control_program(
     written = write_program(cuts, control, frame, short_name or "PART", remarks)
     if isinstance(written, NotWritten):
         return Refusal(written.findings, unit)
-    style, notes = STYLES.get(control), [*_for_the_operator(jobs, cuts, unit, control)]
+    style, notes = STYLE_OF_CONTROL.get(control), [*_for_the_operator(jobs, cuts, unit, control)]
     if style is not None and not style.comments and part.strip():
         text = f"PART NAME {printable(part)} is not in the file: {shown_name(control)} has no comments."
         notes.append(Finding("PART_NAME", Severity.INFO, text, field="name"))
@@ -84,7 +84,7 @@ def _for_the_operator(jobs: Sequence[Job], cuts: Sequence[PassToWrite], unit: Un
             "cut another contour. Post it again for such a tool."
         )
         yield Finding("LEFT_OUT", Severity.WARNING, text, lengths=(max(cut.diameter for cut in deleted),))
-    style, name = STYLES.get(control), shown_name(control)
+    style, name = STYLE_OF_CONTROL.get(control), shown_name(control)
     if (style is None or not style.writes_work_offset) and jobs[0].work_offset != 54:
         text = f"Work offset G{jobs[0].work_offset} cannot be written for {name}; set its origin on the control."
         yield Finding("WORK_OFFSET", Severity.WARNING, text)
@@ -132,7 +132,7 @@ def _header(
 
 def _offsets(cuts: Sequence[PassToWrite], unit: Unit, control: str) -> Iterator[str]:
     """Yield the offsets that the operator must enter."""
-    style = STYLES.get(control)
+    style = STYLE_OF_CONTROL.get(control)
     if style is None or style.radius is not Radius.OFFSET:
         return
     sizes = {(cut.tool, cut.stock): cut.diameter / 2 + cut.stock for cut in cuts if isinstance(cut, CompensatedPass)}

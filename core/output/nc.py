@@ -20,8 +20,8 @@ from core.controls.write.contour_pass import CenterMove
 from core.controls.write.iso_program import CORNER_TOLERANCE, speed_text
 from core.finding import Finding
 from core.geometry.piece import Arc, Turn
-from core.output.grid import FINER, Grid, arc_parts, feed_text, length_text
-from core.output.objections import OVERRIDE, overridable_errors, posting_errors
+from core.output.grid import CENTER_EXTRA_DECIMALS, Grid, arc_parts, feed_text, length_text
+from core.output.objections import OVERRIDE_PHRASE, overridable_errors, posting_errors
 from core.output.passes import Cutter, Job, Pass, at_one_safe_z, clear_height, passes
 from core.program.model import Coolant
 from core.units import Unit, located_sentence
@@ -31,7 +31,9 @@ COMMENT_WIDTH: Final = 72
 ACTIVE: Final = re.compile(r"\s*[A-Za-z_]+\s*,")
 """A comment that begins like this is a command to some controls: (MSG, ...), (LOGOPEN, ...), (PY, ...)."""
 AXIS_AND_NUMBER: Final = re.compile(r"\b([XYZ]) (?=[-.\d])")
-READABLE: Final = str.maketrans({"(": "[", ")": "]", "%": " PERCENT", "\u00b0": " DEG", "\u2013": "-", "\u2212": "-"})
+COMMENT_REPLACEMENTS: Final = str.maketrans(
+    {"(": "[", ")": "]", "%": " PERCENT", "\u00b0": " DEG", "\u2013": "-", "\u2212": "-"}
+)
 
 
 def comments(text: str) -> Iterator[str]:
@@ -39,7 +41,7 @@ def comments(text: str) -> Iterator[str]:
 
     A line never ends between an axis and its number.
     """
-    plain = text.translate(READABLE).encode("ascii", "replace").decode("ascii")
+    plain = text.translate(COMMENT_REPLACEMENTS).encode("ascii", "replace").decode("ascii")
     spaced = "".join(character if character.isprintable() else " " for character in plain)
     unbroken = AXIS_AND_NUMBER.sub(r"\1\0", spaced)
     for line in (part.replace("\0", " ") for part in wrap(unbroken, COMMENT_WIDTH)):
@@ -82,7 +84,7 @@ class _MoveWriter:
             if part.center is None:
                 yield from self.move("G1", end, feed)
             else:
-                i, j = (self.grid.text(steps, FINER) for steps in part.center)
+                i, j = (self.grid.text(steps, CENTER_EXTRA_DECIMALS) for steps in part.center)
                 yield from self.move("G3" if motion.turn > 0 else "G2", end, feed, f" I{i} J{j}")
 
     def move(self, word: str, end: Place, feed: str, center: str = "") -> Iterator[str]:
@@ -126,7 +128,7 @@ def center_path_program(
     """Return the NC text of all jobs, or the findings that forbid it.
 
     `name` is the program's name and `part` the PART NAME; both become comments at the top, whatever they contain.
-    `override` counts only if it is the sentence `core.output.objections.OVERRIDE`, and only against findings on a path
+    `override` counts only if it is the sentence `core.output.objections.OVERRIDE_PHRASE`, and only against findings on a path
     that is known; the header then says what was overridden.
     """
     grid = Grid(unit)
@@ -158,7 +160,7 @@ def _header(jobs: Sequence[Job], unit: Unit, head: tuple[str, ...], waived: tupl
     for job in jobs:
         yield from _block_lines(job, unit)
     if waived:
-        yield from comments(f"OVERRIDDEN BY THE OPERATOR: {OVERRIDE}")
+        yield from comments(f"OVERRIDDEN BY THE OPERATOR: {OVERRIDE_PHRASE}")
     for finding in waived:
         yield from comments(f"OVERRIDDEN {finding.code}: {located_sentence(finding, unit)}")
     yield from comments(f"G64 P{CORNER_TOLERANCE[unit]}: CORNER TOLERANCE {CORNER_TOLERANCE[unit]}")

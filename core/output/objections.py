@@ -12,12 +12,12 @@ import numpy as np
 from core.finding import Finding, Severity
 from core.output.grid import Grid, feed_text
 from core.output.passes import CenterPath, Job, rough_runs
-from core.tolerance import JOINED, LARGEST
+from core.tolerance import JOINED, LARGEST_COORDINATE
 
-OVERRIDE: Final = "POST WITH GOUGE"
+OVERRIDE_PHRASE: Final = "POST WITH GOUGE"
 """What an operator must type to post a path that gouges."""
 
-OVERRIDABLE: Final = frozenset({"GOUGE", "BLEND_GOUGES", "ROUGH_GOUGES", "WRONG_SIDE"})
+OVERRIDABLE_CODES: Final = frozenset({"GOUGE", "BLEND_GOUGES", "ROUGH_GOUGES", "WRONG_SIDE"})
 """Findings on a path that is whole and known; what is unread, missing or undetermined cannot be overridden."""
 
 MAX_LISTED: Final = 6
@@ -34,8 +34,8 @@ def posting_errors(jobs: Sequence[Job], grid: Grid, *, override: str | None) -> 
         errors += [replace(finding, block=job.block) for finding in (*job.errors, *job_errors(job, grid))]
     if len({job.work_offset for job in jobs}) > 1:
         errors.append(Finding("WORK_OFFSET", Severity.ERROR, "The blocks name different work offsets."))
-    if override == OVERRIDE:
-        errors = [finding for finding in errors if finding.code not in OVERRIDABLE]
+    if override == OVERRIDE_PHRASE:
+        errors = [finding for finding in errors if finding.code not in OVERRIDABLE_CODES]
     return tuple(dict.fromkeys(errors))
 
 
@@ -43,7 +43,7 @@ def job_errors(job: Job, grid: Grid) -> Iterator[Finding]:
     """Yield what is wrong with a job that its errors do not name: a field without an error, a path without a cause."""
     errors = job.errors
     fields = {finding.field for finding in errors}
-    explained = any(finding.code not in OVERRIDABLE for finding in errors)
+    explained = any(finding.code not in OVERRIDABLE_CODES for finding in errors)
     for wrong, code, text, field in (*_tools(job), *_depths(job), *_numbers(job), *_paths(job, grid)):
         objection = Finding(code, Severity.ERROR, text, field=field)
         known = objection in errors or (field is not None and field in fields) or (code == "NO_PATH" and explained)
@@ -52,8 +52,8 @@ def job_errors(job: Job, grid: Grid) -> Iterator[Finding]:
 
 
 def overridable_errors(jobs: Iterable[Job]) -> tuple[Finding, ...]:
-    """Return the errors of the jobs that `OVERRIDE` may waive."""
-    return tuple(finding for job in jobs for finding in job.errors if finding.code in OVERRIDABLE)
+    """Return the errors of the jobs that `OVERRIDE_PHRASE` may waive."""
+    return tuple(finding for job in jobs for finding in job.errors if finding.code in OVERRIDABLE_CODES)
 
 
 _Check = tuple[bool, str, str, str | None]
@@ -100,7 +100,7 @@ def _numbers(job: Job) -> Iterator[_Check]:
         job.safe_z,
         *(value or 0.0 for level in job.levels for value in level),
     )
-    sane = all(isfinite(value) and abs(value) <= LARGEST for value in given)
+    sane = all(isfinite(value) and abs(value) <= LARGEST_COORDINATE for value in given)
     yield not sane, "NUMBER", "A depth, feed or speed is not a usable number.", None
     yield not 54 <= job.work_offset <= 59, "WORK_OFFSET", "WORK OFFSET goes from 54 to 59.", "work_offset"
     yield job.speed <= 0.0, "SPEED", "SPEED must be above 0.", "speed"
@@ -126,7 +126,7 @@ def _paths(job: Job, grid: Grid) -> Iterator[_Check]:
 def _reachable(run: CenterPath) -> bool:
     arrays = [array for part in (run.lead_in, run.path, run.lead_out) for array in (part.points, part.centers)]
     # a comparison with NaN is false
-    return all(bool((np.abs(array) <= LARGEST).all()) for array in arrays)
+    return all(bool((np.abs(array) <= LARGEST_COORDINATE).all()) for array in arrays)
 
 
 def _no_feed(feed: float, grid: Grid) -> bool:

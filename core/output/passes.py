@@ -35,7 +35,7 @@ from core.geometry.piece import Line, Piece, Point
 from core.program.model import Coolant
 from core.tolerance import CLOSED, JOINED, LAST_PASS
 
-WRAPPED: Final = 1e-6
+MAX_WRAP_ANGLE: Final = 1e-6
 """Angle by which rounding may put an arc's first point before its segment's first point, in radians."""
 
 
@@ -217,7 +217,7 @@ def _shares(pieces: Pieces, segments: Pieces) -> Floats:
     on_line = np.clip(((points - segments.start) * run.conj()).real / square, 0.0, 1.0)
     turned = (pieces.start - segments.center) * (segments.start - segments.center).conj()
     begun, whole = np.mod(np.angle(turned) * segments.turn, tau), swept(segments)
-    begun[begun > tau - WRAPPED] = 0.0
+    begun[begun > tau - MAX_WRAP_ANGLE] = 0.0
     on_arc = np.array((begun, begun + swept(pieces))) / np.where(whole == 0.0, 1.0, whole)
     return np.where(segments.turn == 0, on_line, np.minimum(on_arc, 1.0))
 

@@ -16,16 +16,16 @@ import numpy as np
 
 from core.finding import Severity
 from core.output.grid import Grid, length_text
-from core.output.objections import OVERRIDE, posting_errors
+from core.output.objections import OVERRIDE_PHRASE, posting_errors
 from core.output.passes import Cutter, Job, Pass, passes, rough_runs
 from core.output.times import block_times, program_times, times_text
 from core.units import Kind, Unit, from_mm, located_sentence, plain, show
 
 PAGE_COLUMNS: Final = 78
 """Columns of the plain text."""
-LABEL: Final = 18
+LABEL_COLUMNS: Final = 18
 """Columns of a label in the plain text."""
-READY: Final = "READY to post."
+READY_TEXT: Final = "READY to post."
 READY_BUT: Final = "READY to post. Know before you run it:"
 NOT_READY: Final = "NOT READY. DO NOT RUN THIS PROGRAM AS IT IS:"
 STYLE: Final = """\
@@ -75,7 +75,7 @@ class Sheet:
         """The line that says whether the program is ready, and the sentences below it."""
         if self.errors:
             return NOT_READY, self.errors
-        return (READY_BUT, self.notes) if self.notes else (READY, ())
+        return (READY_BUT, self.notes) if self.notes else (READY_TEXT, ())
 
 
 def sheet(jobs: Sequence[Job], unit: Unit, program: str, part: str = "", day: str = "") -> Sheet:
@@ -96,7 +96,7 @@ def sheet(jobs: Sequence[Job], unit: Unit, program: str, part: str = "", day: st
 
 def _times(jobs: Sequence[Job], unit: Unit) -> Iterator[Pair]:
     """Yield the time of the whole program, and the rapid rate that it is based on."""
-    ready = [job for job in jobs if not posting_errors([job], Grid(unit), override=OVERRIDE)]
+    ready = [job for job in jobs if not posting_errors([job], Grid(unit), override=OVERRIDE_PHRASE)]
     if ready:
         yield "TIME", times_text(program_times(ready, ready[0].rapid_rate))
         rate, assumed = _feed(ready[0].rapid_rate, unit), ready[0].rapid_assumed
@@ -122,7 +122,7 @@ def _tools(jobs: Sequence[Job], unit: Unit) -> Section:
 
 
 def _block(job: Job, unit: Unit) -> Section:
-    known = not posting_errors([job], Grid(unit), override=OVERRIDE)
+    known = not posting_errors([job], Grid(unit), override=OVERRIDE_PHRASE)
     all_passes = passes(job) if known else ()
     return Section(
         f"BLOCK {job.block}  MILL CONTOUR",
@@ -229,9 +229,9 @@ def _text_section(section: Section) -> Iterator[str]:
 
 def _text_pairs(pairs: Sequence[tuple[str, str]]) -> Iterator[str]:
     for label, text in pairs:
-        first, *rest = wrap(plain(text), PAGE_COLUMNS - LABEL - 1) or [""]
-        yield f"{label:<{LABEL}} {first}"
-        yield from (f"{'':<{LABEL}} {line}" for line in rest)
+        first, *rest = wrap(plain(text), PAGE_COLUMNS - LABEL_COLUMNS - 1) or [""]
+        yield f"{label:<{LABEL_COLUMNS}} {first}"
+        yield from (f"{'':<{LABEL_COLUMNS}} {line}" for line in rest)
 
 
 def _table(rows: Sequence[Sequence[str]]) -> Iterator[str]:

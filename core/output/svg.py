@@ -20,9 +20,9 @@ from core.units import from_mm, to_mm
 SVG_DECIMALS: Final = 6
 DRAWING_WIDTH: Final = 960
 """Width of the drawing on a screen in pixels; the height follows from it."""
-TEXT: Final = 0.024
+TEXT_HEIGHT: Final = 0.024
 """Height of letters as a fraction of the drawing's larger side."""
-MARGIN: Final = 0.06
+MARGIN_SHARE: Final = 0.06
 
 
 @dataclass(frozen=True, slots=True)
@@ -35,7 +35,7 @@ class Pen:
     dashes: str = ""
 
 
-PENS: Final[Mapping[Style, Pen]] = MappingProxyType(
+PEN_OF_STYLE: Final[Mapping[Style, Pen]] = MappingProxyType(
     {
         Style.AXIS: Pen("#9aa5ad", 0.7, "axes", "8 3 2 3"),
         Style.SURFACE: Pen("#1b1f23", 2.2, "part surface"),
@@ -64,16 +64,16 @@ def svg(scene: Scene, *, title: str) -> str:
     x0, y0, x1, y1 = scene.bounds or (-1.0, -1.0, 1.0, 1.0)
     size = max(x1 - x0, y1 - y0) or 1.0
     roles = _roles(scene)
-    margin, line = size * MARGIN, size * TEXT * 1.6
+    margin, line = size * MARGIN_SHARE, size * TEXT_HEIGHT * 1.6
     box = (x0 - margin, y0 - margin - line * (len(roles) + 1), x1 + margin, y1 + margin + line)
     lines = (
         *_head(box, title),
         *_axes(scene, (x0 - margin / 2, y0 - margin / 2, x1 + margin / 2, y1 + margin / 2)),
         *(_path(part, layer) for layer in scene.layers for part in layer.parts),
         *(_circle(circle) for circle in scene.circles if _finite(*circle.center, circle.radius)),
-        *(_mark(mark, size * TEXT) for mark in scene.marks if _finite(*mark.at)),
-        _text((x0, y1 + margin), title, size * TEXT * 1.2),
-        *_legend(roles, (x0, y0 - margin - line), size * TEXT, line),
+        *(_mark(mark, size * TEXT_HEIGHT) for mark in scene.marks if _finite(*mark.at)),
+        _text((x0, y1 + margin), title, size * TEXT_HEIGHT * 1.2),
+        *_legend(roles, (x0, y0 - margin - line), size * TEXT_HEIGHT, line),
         *_scale(scene, (x1, y0 - margin - line), size),
         "</svg>",
     )
@@ -128,7 +128,7 @@ def _head(box: Box, title: str) -> Iterator[str]:
     yield "<style>"
     yield "path, circle { fill: none; vector-effect: non-scaling-stroke; stroke-linejoin: round }"
     yield "text { font-family: monospace; fill: #1b1f23 }"
-    for style, pen in PENS.items():
+    for style, pen in PEN_OF_STYLE.items():
         dashes = f"; stroke-dasharray: {pen.dashes}" if pen.dashes else ""
         yield f".{style.name.lower()} {{ stroke: {pen.color}; stroke-width: {pen.weight}px{dashes} }}"
     yield ".dashed { stroke-dasharray: 6 4 }"
@@ -189,14 +189,14 @@ def _legend(roles: tuple[Style, ...], corner: Point, size: float, line: float) -
     for row, style in enumerate(roles):
         level = y - row * line
         yield _drawn(style, f"M{_at((x, level + size / 3))} L{_at((x + 4 * size, level + size / 3))}")
-        yield _text((x + 5 * size, level), PENS[style].words, size)
+        yield _text((x + 5 * size, level), PEN_OF_STYLE[style].words, size)
 
 
 def _scale(scene: Scene, corner: Point, size: float) -> Iterator[str]:
     """Yield a bar of a round length in program units, at the right."""
     if scene.unit is None:
         return
-    (x, y), letters = corner, size * TEXT
+    (x, y), letters = corner, size * TEXT_HEIGHT
     length, decimals = round_length(from_mm(size * 0.25, scene.unit))
     left = x - to_mm(length, scene.unit)
     ends = " ".join(f"M{_at((end, y))} L{_at((end, y + letters))}" for end in (left, x))

@@ -32,9 +32,9 @@ NOT_FOLLOWED: Final = (
     *("FN-DARC", "FN-CYCLE", "FN-TRANSFORM", "FN-WHERE", "FN-PARAMETER", "FN-ENDLESS"),
 )
 """Rules that stop the reading of the program, not the control."""
-NOTHING: Final = "EMPTY"
+EMPTY_CODE: Final = "EMPTY"
 """The rule of a program with nothing to run."""
-SHALLOW: Final = 0.01
+SHALLOW_SHARE: Final = 0.01
 """A gouge is shallow below this fraction of the tool's radius."""
 
 _NO_SIZE: Final = re.compile(r"(?:[Tt]ool table has no tool|Offset) (\d+)|diameter of tool (.+) is (?:unknown|not)")
@@ -192,7 +192,7 @@ def _is_of_no_use(fits: Finding, row: Answer, done: ControlRun) -> bool:
     LinuxCNC leaves such gouges at nearly tangent joints of a drawing's short lines, with any tool in use.
     """
     radius = max((stretch.radius for stretch in done.stretches), default=0.0)
-    return row.gouge is not None and row.gouge[0] < SHALLOW * radius and fits.lengths[0] < radius
+    return row.gouge is not None and row.gouge[0] < SHALLOW_SHARE * radius and fits.lengths[0] < radius
 
 
 def _only_leads_gouge(row: Answer, done: ControlRun) -> bool:
@@ -329,7 +329,7 @@ def _outcome(
 ) -> tuple[State, str]:  # fmt: skip
     """Return the state of a run and the words for it, the worst first: an alarm before a gouge, a gouge before what
     cannot be judged."""
-    if any(finding.code == NOTHING for finding in done.findings):
+    if any(finding.code == EMPTY_CODE for finding in done.findings):
         return State.EMPTY, "has nothing to run"
     cut, line = deepest_gouge(results)
     place = f"at line {line}" if line else "in a lead"

@@ -27,7 +27,7 @@ from core.finding import Finding, Severity
 from core.geometry.path import EMPTY, Path
 from core.geometry.piece import Side
 from core.output.grid import Grid
-from core.output.objections import OVERRIDABLE, job_errors
+from core.output.objections import OVERRIDABLE_CODES, job_errors
 from core.output.passes import z_steps
 from core.pipeline.derived import Derived, DerivedBlock
 from core.pipeline.fields_stage import solve_block_fields
@@ -209,7 +209,7 @@ def remedy_for_gouge(block: DerivedBlock, program: Program) -> Finding | None:
     None if the block does not gouge, and if neither helps.
     """
     setup = cutting_setup(block, program)
-    if setup is None or not any(finding.code in OVERRIDABLE for finding in block.errors):
+    if setup is None or not any(finding.code in OVERRIDABLE_CODES for finding in block.errors):
         return None
     table = judge_lookaheads(setup)
     if table.recommended is not None:

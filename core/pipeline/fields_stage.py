@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterable
 
 from core.advice.field_findings import field_findings, typed_lookahead_warning
-from core.comp.lookahead import HIGHEST, LOWEST, calculated
+from core.comp.lookahead import MAX_LOOKAHEAD, MIN_LOOKAHEAD, calculated
 from core.finding import Finding
 from core.geometry.piece import Side
 from core.pipeline.derived import Derived, DerivedBlock, LookAhead, Tag
@@ -60,7 +60,7 @@ def _look_ahead(block: Block, solved: SolvedBlock, findings: Iterable[Finding]) 
     empty = sum(finding.code == "ZERO_LENGTH" for finding in findings)
     value = calculated(len(solved.segments) - empty, closed=solved.closed)
     match block.lookahead:
-        case Number(typed) if LOWEST <= typed <= HIGHEST:
+        case Number(typed) if MIN_LOOKAHEAD <= typed <= MAX_LOOKAHEAD:
             return LookAhead(int(typed), Tag.USR, value)
         case _:
             return LookAhead(value, Tag.CAL, value)

@@ -14,7 +14,7 @@ from core.advice.block_paths import BlockPaths, Loop
 from core.advice.lookahead_table import Row
 from core.comp.compensated import Compensated
 from core.draw.areas import gouged, material, uncut
-from core.draw.characters import CELLS, Mode, scale_bar
+from core.draw.characters import CELLS_OF_MODE, Mode, scale_bar
 from core.draw.raster import Picture, draw
 from core.draw.scene import (
     Area,
@@ -28,7 +28,7 @@ from core.draw.scene import (
     direction_at_middle,
     joined_scenes,
 )
-from core.draw.view import TALL, View
+from core.draw.view import CELL_HEIGHT, View
 from core.geometry.distance import distance
 from core.geometry.path import EMPTY, Floats, Path, as_complex
 from core.geometry.path_parts import NO_PARTS, PartEnds, PathParts, parts_between, single_pieces
@@ -46,13 +46,13 @@ DRAWN_AGAIN: Final = frozenset({Style.UNCUT, Style.GOUGE})
 """Roles of layers that repeat parts of the surface: they cannot widen the bounds of a drawing."""
 OF_SURFACE: Final = frozenset({Style.SURFACE, Style.UNCUT, Style.DELETED, Style.CURRENT, Style.UNTAKEN})
 """Roles of the surface and of its faults."""
-LOUPE: Final = 4.6
+LOUPE_HEIGHT: Final = 4.6
 """Height of a loupe in tool radii."""
 FEWEST_DOTS: Final = 2.6
 """The tool's path is drawn next to the surface only if the tool radius has at least this many dots."""
 FEWEST_DOTS_FOR_NUMBERS: Final = 3.0
 """The same for the numbers of segments."""
-NARROW: Final = 44
+MAX_NARROW_COLUMNS: Final = 44
 """Segment numbers would crowd in a drawing of this many columns or fewer."""
 
 
@@ -136,13 +136,15 @@ class Subject:
         bounds = scene.extent(without=DRAWN_AGAIN)
         if bounds is None or columns < 1 or rows < 1:
             return None
-        view, look = _view_of(self, bounds, columns, rows), CELLS[mode]
+        view, look = _view_of(self, bounds, columns, rows), CELLS_OF_MODE[mode]
         dot = view.scale * look.dot[0]
         dots = (self.block.radius or 0.0) / dot
         if dots < FEWEST_DOTS:
             scene = _outlined(scene, self)
         elif not self.outline:
-            labels = _segment_labels(self.block) if dots >= FEWEST_DOTS_FOR_NUMBERS and columns > NARROW else ()
+            labels = (
+                _segment_labels(self.block) if dots >= FEWEST_DOTS_FOR_NUMBERS and columns > MAX_NARROW_COLUMNS else ()
+            )
             scene = replace(scene, areas=_areas(self, dot), labels=labels)
         if self.cross is not None:
             scene = replace(scene, marks=(*scene.marks, Mark(self.cross, Style.CURRENT, Symbol.CENTER)))
@@ -177,7 +179,7 @@ class SceneSubject:
             return None
         view = self.view or View.fit(bounds, columns, rows)
         picture = draw(replace(self.scene, unit=None), view, columns, rows, mode)
-        return Drawn(picture, view, scale_bar(view.scale, columns, self.unit, CELLS[mode].bar), bounds)
+        return Drawn(picture, view, scale_bar(view.scale, columns, self.unit, CELLS_OF_MODE[mode].bar), bounds)
 
 
 def _view_of(subject: Subject, bounds: Box, columns: int, rows: int) -> View:
@@ -186,7 +188,7 @@ def _view_of(subject: Subject, bounds: Box, columns: int, rows: int) -> View:
     whole = View.fit(bounds, columns, rows)
     if subject.near is None or not subject.block.radius:
         return whole
-    loupe = View(subject.near, LOUPE * subject.block.radius / (rows * TALL))
+    loupe = View(subject.near, LOUPE_HEIGHT * subject.block.radius / (rows * CELL_HEIGHT))
     return whole if loupe.scale >= whole.scale else loupe.over(subject.near, bounds, columns, rows)
 
 

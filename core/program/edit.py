@@ -14,7 +14,7 @@ from core.program.fields import (
     PARAMETERS,
     SETUP,
     START,
-    STORED,
+    STORED_FIELDS,
     TOOL,
     Field,
     Form,
@@ -75,7 +75,7 @@ def type_field(program: Program, where: FormPlace, name: str, typed: Typed) -> E
     if refusal:
         return refusal
     edited = with_part(program, where, _typed_into(part, name, typed))
-    if isinstance(part, Block) or name in UNSHAPED or type(typed) is type(getattr(part, name)):
+    if isinstance(part, Block) or name in FIELDS_WITHOUT_SHAPE or type(typed) is type(getattr(part, name)):
         return edited
     return _picked_anew(program, edited, where)
 
@@ -110,7 +110,7 @@ def choose(program: Program, where: FormPlace, name: str, value: str | int | Non
     return chosen if isinstance(part, Block) else _run_picked_anew(program, chosen, where)
 
 
-UNSHAPED: Final = ("z_end", "feed", "pick_x", "pick_y")
+FIELDS_WITHOUT_SHAPE: Final = ("z_end", "feed", "pick_x", "pick_y")
 """The fields of a segment that do not affect which solutions it has."""
 
 
@@ -355,7 +355,7 @@ def _defaults_typed(part: Part, table: tuple[Field, ...], unit: Unit) -> Part:
 
 
 def _converted_block(block: Block, old: Unit, new: Unit) -> Block:
-    segments = tuple(_converted(segment, STORED[form_of(segment)], old, new) for segment in block.segments)
+    segments = tuple(_converted(segment, STORED_FIELDS[form_of(segment)], old, new) for segment in block.segments)
     return replace(_converted(block, START, old, new), segments=segments)
 
 

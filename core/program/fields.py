@@ -65,10 +65,10 @@ class Form(StrEnum):
     SETUP = "PART SETUP"
 
 
-FARTHEST: Final = 254000.0
+LARGEST_LENGTH: Final = 254000.0
 """Largest coordinate or length in millimeters, and feed in millimeters per minute: 10000 in, beyond any machine."""
 
-FASTEST: Final = 100000
+LARGEST_SPEED: Final = 100000
 """Largest SPEED in revolutions per minute."""
 
 SEGMENT_PROMPT: Final = (
@@ -82,7 +82,7 @@ LOOKAHEAD_PROMPT: Final = (
 
 
 def _place(name: str, label: str, prompt: str, *, relative: bool = False) -> Field:
-    return Field(name, label, Kind.LENGTH, prompt, -FARTHEST, FARTHEST, relative=relative)
+    return Field(name, label, Kind.LENGTH, prompt, -LARGEST_LENGTH, LARGEST_LENGTH, relative=relative)
 
 
 def _heading(name: str, label: str, prompt: str) -> Field:
@@ -90,15 +90,15 @@ def _heading(name: str, label: str, prompt: str) -> Field:
 
 
 def _size(name: str, label: str, prompt: str) -> Field:
-    return Field(name, label, Kind.LENGTH, prompt, high=FARTHEST, above=0.0)
+    return Field(name, label, Kind.LENGTH, prompt, high=LARGEST_LENGTH, above=0.0)
 
 
 def _allowance(name: str, label: str, prompt: str) -> Field:
-    return Field(name, label, Kind.LENGTH, prompt, 0.0, FARTHEST)
+    return Field(name, label, Kind.LENGTH, prompt, 0.0, LARGEST_LENGTH)
 
 
 def _feed(name: str, label: str, prompt: str) -> Field:
-    return Field(name, label, Kind.FEED, prompt, high=FARTHEST, above=0.0)
+    return Field(name, label, Kind.FEED, prompt, high=LARGEST_LENGTH, above=0.0)
 
 
 def _count(name: str, label: str, prompt: str, low: float, high: float) -> Field:
@@ -141,7 +141,7 @@ START: Final = (
     _place("z_start", "Z START", "Z of the top of the material."),
     _place("z_bottom", "Z BOTTOM", "Z of the bottom of the cut."),
     _feed("plunge_feed", "PLUNGE FEED", "Plunge feed."),
-    _count("speed", "SPEED (RPM)", "Spindle speed, revolutions per minute.", 1, FASTEST),
+    _count("speed", "SPEED (RPM)", "Spindle speed, revolutions per minute.", 1, LARGEST_SPEED),
     _allowance("peck_depth", "PECK DEPTH", "Depth of one pass; 0 = full depth."),
     _count("lookahead", "CUTCOMP LOOKAHEAD", LOOKAHEAD_PROMPT, 1, 20),
     _coolant("Coolant of the block. Del blanks it: as TOOL SETUP has it for the tool."),
@@ -205,7 +205,7 @@ TOOL: Final = (
     _count("number", "TOOL", "Tool number.", 1, 9999),
     Field("type", "TYPE", Kind.TEXT, "Type of the tool, such as END MILL."),
     _size("diameter", "TOOL DIAMETER", "Diameter of the tool."),
-    _count("speed", "SPEED (RPM)", "Spindle speed of blocks that leave theirs blank.", 1, FASTEST),
+    _count("speed", "SPEED (RPM)", "Spindle speed of blocks that leave theirs blank.", 1, LARGEST_SPEED),
     _feed("feed", "FEED", "Feed of contours that leave theirs blank."),
     _feed("plunge_feed", "PLUNGE FEED", "Plunge feed of blocks that leave theirs blank."),
     _coolant("Coolant of blocks that leave theirs blank."),
@@ -260,7 +260,7 @@ PICK: Final = (
 )
 """The point the operator picks on the drawing, stored on a run's first segment; not fields of its form."""
 
-TABLES: Final[Mapping[Form, tuple[Field, ...]]] = MappingProxyType(
+FIELDS_OF_FORM: Final[Mapping[Form, tuple[Field, ...]]] = MappingProxyType(
     {
         Form.START: START,
         Form.LINE: LINE,
@@ -273,21 +273,21 @@ TABLES: Final[Mapping[Form, tuple[Field, ...]]] = MappingProxyType(
     }
 )
 
-STORED: Final[Mapping[Form, tuple[Field, ...]]] = MappingProxyType(
-    {form: (*table, *PICK) if form in (Form.LINE, Form.ARC) else table for form, table in TABLES.items()}
+STORED_FIELDS: Final[Mapping[Form, tuple[Field, ...]]] = MappingProxyType(
+    {form: (*table, *PICK) if form in (Form.LINE, Form.ARC) else table for form, table in FIELDS_OF_FORM.items()}
 )
 """Everything that is stored for each screen: its fields, and the pick of a LINE or an ARC."""
 
 NUMBER_FIELDS: Final[Mapping[Form, tuple[Field, ...]]] = MappingProxyType(
     {
         form: tuple(field for field in table if field.kind not in (Kind.CHOICE, Kind.TEXT))
-        for form, table in STORED.items()
+        for form, table in STORED_FIELDS.items()
     }
 )
 """The fields of each screen that take a number."""
 
 _BY_NAME: Final[Mapping[tuple[Form, str], Field]] = MappingProxyType(
-    {(form, field.name): field for form, table in STORED.items() for field in table}
+    {(form, field.name): field for form, table in STORED_FIELDS.items() for field in table}
     | {(Form.LINE, "choice"): SOLUTION, (Form.ARC, "choice"): SOLUTION}
 )
 

@@ -8,7 +8,7 @@ from enum import StrEnum
 from typing import Generic, TypeVar
 
 from core.program.edit import set_unit
-from core.program.fields import STORED, Form, form_of
+from core.program.fields import STORED_FIELDS, Form, form_of
 from core.program.model import Block, Number, PartSetup, Program, ProgramParameters, Relative, Segment, Tool, Unread
 from core.units import Kind, Unit, printable, show
 
@@ -114,7 +114,7 @@ def _differences(old: Program, new: Program) -> Iterator[str]:
 
 
 def _fields(where: str, form: Form, old: FormPart, new: FormPart, unit: Unit) -> Iterator[str]:
-    for field in STORED[form]:
+    for field in STORED_FIELDS[form]:
         before, after = getattr(old, field.name), getattr(new, field.name)
         if before != after:
             yield f"{where}: {field.label} {_text(after, field.kind, unit)}, was {_text(before, field.kind, unit)}."

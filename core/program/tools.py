@@ -15,7 +15,7 @@ from typing import Final
 from core.finding import Finding, Severity
 from core.program.fields import TOOL, Form, field_of, typed_trouble, value_refusal
 from core.program.model import Number, Program, Tool, Typed
-from core.tolerance import LARGEST
+from core.tolerance import LARGEST_COORDINATE
 from core.units import Unit, convert, printable, to_mm
 
 
@@ -181,7 +181,7 @@ def _word_trouble(letter: str, value: float, words: Mapping[str, float]) -> str 
         return f"{letter} is not a word of a tool table; {EXAMPLE}."
     if letter in words:
         return f"{letter} appears twice in this line."
-    if not isfinite(value) or abs(value) > LARGEST:
+    if not isfinite(value) or abs(value) > LARGEST_COORDINATE:
         return "A number of this line is too large for any tool."
     return None
 

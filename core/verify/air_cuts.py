@@ -18,12 +18,12 @@ from core.geometry.piece import Point, point_of
 from core.geometry.piece_arrays import at, blocks, direction, piece_arrays
 from core.tolerance import ON_PATH, STOCK
 from core.verify.pairs import Pairs, along, keeping, measurable, pairs_of, rounding_of
-from core.verify.uncut import POINT, gaps_of
+from core.verify.uncut import MAX_POINT_LENGTH, gaps_of
 
-PARALLEL: Final = 1e-6
+MAX_PARALLEL_SINE: Final = 1e-6
 """Sine of the largest angle at which a move and the wall it touches count as parallel."""
 
-SHORT: Final = 1e-5
+MAX_DIRECTIONLESS_LENGTH: Final = 1e-5
 """Millimeters up to which a piece has no direction: rounding leaves it where two walls nearly run on tangent."""
 
 
@@ -79,11 +79,11 @@ def _air_cuts(pairs: Pairs, radius: float, center: Path) -> tuple[AirCut, ...]:
 
 
 def backwards(pairs: Pairs, radius: float) -> tuple[int, ...]:
-    """Return the rows of pieces longer than SHORT that touch walls, always against the walls' direction.
+    """Return the rows of pieces with a direction that touch walls, always against the walls' direction.
 
     Only the walls nearest to a piece count: a piece that gouges may run along others behind them either way.
     """
-    against = (_ways(pairs, radius) < 0) & (pairs.pieces.length > SHORT)
+    against = (_ways(pairs, radius) < 0) & (pairs.pieces.length > MAX_DIRECTIONLESS_LENGTH)
     return tuple(pairs.pieces.rows[against].tolist())
 
 
@@ -107,7 +107,7 @@ def _way(pairs: Pairs, radius: float) -> Rows:
     reached = np.concatenate((pairs.from_other, pairs.from_piece[::2])) <= limit
     fractions = np.array((np.zeros(len(feet[0])), np.ones(len(feet[0])), *feet))
     begin, end = np.where(reached, fractions, 2.0).min(axis=0), np.where(reached, fractions, -2.0).max(axis=0)
-    wide = (end - begin) * wall.length > POINT
+    wide = (end - begin) * wall.length > MAX_POINT_LENGTH
     turn = piece.turn * wall.turn
     straight = ~(piece.arcs | wall.arcs) & (pairs.least >= radius - pairs.grant)
     off = np.abs(piece.center - wall.center) + np.abs(np.abs(piece.radius - wall.radius) - radius)
@@ -128,5 +128,5 @@ def _way_in_the_middle(pairs: Pairs, radius: float) -> Rows:
     t = foot(wall, middle)
     turn = direction(piece, half) * np.conj(direction(wall, t))
     touching: Flags = np.abs(np.abs(middle - at(wall, t)) - radius) <= pairs.grant + ON_PATH
-    parallel = touching & (t > 0.0) & (t < 1.0) & (np.abs(turn.imag) < PARALLEL)
+    parallel = touching & (t > 0.0) & (t < 1.0) & (np.abs(turn.imag) < MAX_PARALLEL_SINE)
     return np.where(parallel, np.sign(turn.real), 0.0).astype(np.intp)

@@ -3,8 +3,8 @@
 The distance to a path is the least of the distances to its pieces.  Along a span, the largest distance to any one
 piece, which has a formula, is therefore an upper bound, and the distance at any place a lower bound.  A span whose
 upper bound exceeds the best value known on its stretch is divided where the nearest pieces of its two ends are
-equally far, or where a piece that is nearest to both ends is farthest, until both bounds agree within `FINE`.  If no
-other piece is nearer there, this takes one step.
+equally far, or where a piece that is nearest to both ends is farthest, until both bounds agree within
+`DISTANCE_TOLERANCE`.  If no other piece is nearer there, this takes one step.
 """
 
 from __future__ import annotations
@@ -24,7 +24,7 @@ from core.tolerance import ON_PATH
 from core.verify.pairs import Pairs, nearest
 from core.verify.stretches import Stretches
 
-FINE: Final = 1e-8
+DISTANCE_TOLERANCE: Final = 1e-8
 """Millimeters: a largest distance counts as known once its bounds are this close."""
 
 BAND_PIECES: Final = 1_000
@@ -33,10 +33,10 @@ BAND_PIECES: Final = 1_000
 MAX_DIVISIONS: Final = 100
 """Divisions after which doubles cannot split a span of any size further."""
 
-SECTIONS: Final = np.linspace(0.0, 1.0, 17)[:, None]
+SECTION_SHARES: Final = np.linspace(0.0, 1.0, 17)[:, None]
 """(17, 1) shares of a span at which both nearest pieces are compared."""
 
-NARROWINGS: Final = 3
+MAX_NARROWINGS: Final = 3
 """Times that a span is narrowed to the section in which the other piece becomes the nearer one."""
 
 LEAST_SHARE: Final = 1e-3
@@ -70,7 +70,7 @@ class _Spans:
 
 
 def farthest(pairs: Pairs, stretches: Stretches, most: float = inf) -> Farthest:
-    """Find the largest distance of each stretch of the pieces from the others, within FINE.
+    """Find the largest distance of each stretch of the pieces from the others.
 
     No distance is larger than `most`, so the search of a stretch ends at a place that far away.
     """
@@ -86,9 +86,9 @@ def farthest(pairs: Pairs, stretches: Stretches, most: float = inf) -> Farthest:
 def _farthest(pairs: Pairs, stretches: Stretches, most: float) -> Farthest:
     spans, best = _begin(pairs, stretches)
     for division in range(MAX_DIVISIONS):
-        spans = spans.take((best.apart[spans.owner] < most - FINE).nonzero()[0])
+        spans = spans.take((best.apart[spans.owner] < most - DISTANCE_TOLERANCE).nonzero()[0])
         bounds, peaks = _bounds(pairs, spans)
-        rows = (bounds > best.apart[spans.owner] + FINE).nonzero()[0]
+        rows = (bounds > best.apart[spans.owner] + DISTANCE_TOLERANCE).nonzero()[0]
         if not len(rows):
             break
         spans = spans.take(rows)
@@ -172,8 +172,8 @@ def _equally_far(pairs: Pairs, spans: _Spans) -> Floats:
     piece, (first_wall, last_wall) = pairs.pieces.take(spans.index), (pairs.others.take(near) for near in spans.near)
     begin, end = spans.t
     low, high, each = begin, end, np.arange(len(begin))
-    for _ in range(NARROWINGS):
-        fractions = low + SECTIONS * (high - low)
+    for _ in range(MAX_NARROWINGS):
+        fractions = low + SECTION_SHARES * (high - low)
         points = at(piece, fractions)
         nearer = distance(last_wall, points) - distance(first_wall, points)
         after = np.maximum(np.argmax(nearer < 0.0, axis=0), 1)

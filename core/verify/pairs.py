@@ -12,9 +12,9 @@ from core.geometry.distance import between, distance, nearest_places
 from core.geometry.nearby import changes, nearest_pairs
 from core.geometry.path import Flags, Floats, Path, Points, Rows
 from core.geometry.piece_arrays import PieceArrays, at, blocks
-from core.tolerance import GOUGE, LARGEST, ON_PATH, STOCK, UNCUT
+from core.tolerance import GOUGE, LARGEST_COORDINATE, ON_PATH, STOCK, UNCUT
 
-ONCE: Final = 1e-6
+MIN_SEPARATE_ANGLE: Final = 1e-6
 """Radians that two concentric arcs must stay apart at one of the two places where they could be side by side."""
 
 
@@ -67,8 +67,8 @@ def measurable(radius: float, *paths: Path) -> bool:
     arrays = [array.ravel() for path in paths for array in (path.points, path.centers)]
     numbers = np.concatenate((np.zeros(0), *arrays))
     # one NaN makes the largest value NaN, and then the comparison is false
-    sound = bool(np.abs(numbers).max(initial=0.0) <= LARGEST)
-    return sound and isfinite(radius) and 0.0 <= radius <= LARGEST
+    sound = bool(np.abs(numbers).max(initial=0.0) <= LARGEST_COORDINATE)
+    return sound and isfinite(radius) and 0.0 <= radius <= LARGEST_COORDINATE
 
 
 def pairs_of(pieces: PieceArrays, others: PieceArrays, rounding: float, rows: Rows | None = None) -> Pairs:
@@ -161,7 +161,7 @@ def concentric(pairs: Pairs) -> Flags:
 def _about_one_center(piece: PieceArrays, other: PieceArrays) -> Flags:
     middles = [arc.arm * np.exp(0.5j * arc.turn * arc.angle) for arc in (piece, other)]
     between = np.abs(np.angle(middles[0] * np.conj(middles[1])))
-    once = (piece.angle + other.angle) / 2.0 + between < tau - ONCE
+    once = (piece.angle + other.angle) / 2.0 + between < tau - MIN_SEPARATE_ANGLE
     alike: Flags = (np.abs(piece.center - other.center) <= ON_PATH) & once
     return alike
 

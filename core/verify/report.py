@@ -14,10 +14,10 @@ from core.tolerance import GOUGE, STOCK
 from core.verify.air_cuts import AirCut
 from core.verify.verdict import Gouge, OverRun, Uncut, UnevenArc, Verdict
 
-DIGIT: Final = 0.00254
+LAST_DIGIT: Final = 0.00254
 """Millimeters: the last digit of a form in inches."""
 
-SHOWN: Final = DIGIT / 2.0
+SHOWN: Final = LAST_DIGIT / 2.0
 """Lengths below this would be displayed as zeros."""
 
 MAX_NAMED_CORNERS: Final = 6
@@ -115,7 +115,7 @@ def _gouge(gouge: Gouge, names: Names, radius: float) -> Finding:
         segment=gouge.surface_number,
         at=gouge.surface_at,
         value=gouge.depth,
-        lengths=(gouge.extent, DIGIT) if fine else (gouge.extent,),
+        lengths=(gouge.extent, LAST_DIGIT) if fine else (gouge.extent,),
     )
 
 
@@ -217,7 +217,7 @@ def _corners(corners: Sequence[Uncut]) -> Finding:
         segment=corners[0].first_number,
         at=corners[0].thickest,
         value=sum(corner.length for corner in corners),
-        lengths=(corners[0].thickness, DIGIT),
+        lengths=(corners[0].thickness, LAST_DIGIT),
         area=sum(areas) if len(areas) == len(corners) else None,
     )
 
@@ -240,7 +240,7 @@ def _uncut(uncut: Uncut, surface: Path) -> Finding:
         segment=uncut.first_number,
         at=uncut.thickest,
         value=uncut.length,
-        lengths=() if isinf(uncut.thickness) else (uncut.thickness, DIGIT),
+        lengths=() if isinf(uncut.thickness) else (uncut.thickness, LAST_DIGIT),
         area=uncut.area,
     )
 

@@ -14,7 +14,7 @@ from core.geometry.path import Flags, Floats, Points, Rows
 from core.geometry.piece_arrays import PieceArrays, at, direction
 from core.tolerance import JOINED
 
-TURN: Final = 1e-6
+HALF_TURN_GAP: Final = 1e-6
 """Radians: an angle this little short of half a turn counts as half a turn."""
 
 
@@ -57,11 +57,11 @@ def _candidates(surface: PieceArrays, *, closed: bool) -> tuple[Rows, Rows]:
     """Return pairs i < j that may meet away from a joint: any near pieces, and neighbors that may turn back."""
     i, j = sorted_pairs(near_pairs_within(surface.boxes, JOINED))
     # a curve must turn through half a turn to come back
-    back = _turned(surface, i, i + 1) > pi - TURN
+    back = _turned(surface, i, i + 1) > pi - HALF_TURN_GAP
     apart = (j - i >= 2) | back
     if closed and len(surface) > 2:
         seam = (i == 0) & (j == len(surface) - 1)
-        apart &= ~seam | (_turned(surface, j, i) > pi - TURN)
+        apart &= ~seam | (_turned(surface, j, i) > pi - HALF_TURN_GAP)
     return i[apart], j[apart]
 
 

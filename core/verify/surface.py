@@ -22,10 +22,10 @@ from core.verify.wrong_side import on_part_side, sided
 LONG_LEAD: Final = 0.25
 """A lead that takes a larger share of its segment may be a wall, with START or the last end mistyped."""
 
-MOST: Final = 0.5
+MAX_LEAD_SHARE: Final = 0.5
 """The same limit if the contour's other end over-runs too; also the limit of a lead's share of the closed contour."""
 
-BLEND: Final = 0.02
+MAX_TANGENT_ANGLE: Final = 0.02
 """Largest angle in radians between an arc and its neighboring wall for the arc to count as tangent to that wall."""
 
 IN_LINE: Final = 1e-3
@@ -139,9 +139,9 @@ def _without_over_run(surface: Surface, *, leads: Leads) -> Surface | None:
     doubtful = len(runs) == 1 and share > LONG_LEAD
     rows_in, rows_out = range(begin, -1, -1), range(end, len(walls))
     left_in, left_out = first - float(stations[begin]), float(stations[end + 1]) - last
-    most_in, most_out = (LONG_LEAD if is_move else MOST for is_move in (own_out, own_in))
+    most_in, most_out = (LONG_LEAD if is_move else MAX_LEAD_SHARE for is_move in (own_out, own_in))
     long = _may_be_walls(walls, rows_in, left_in, most_in) | _may_be_walls(walls, rows_out, left_out, most_out)
-    if max(lead_in, lead_out) > MOST * (last - first) or long:
+    if max(lead_in, lead_out) > MAX_LEAD_SHARE * (last - first) or long:
         long = set(rows_in if left_in > JOINED else rows_in[1:]) if lead_in > JOINED else set()
         long |= set(rows_out if left_out > JOINED else rows_out[1:]) if lead_out > JOINED else set()
     lead_numbers = tuple(surface.path.numbers[walls.rows[sorted(long)]].tolist())
@@ -183,7 +183,7 @@ def _is_tangent_arc(walls: PieceArrays, end: int, neighbor: int) -> bool:
         return False
     before, after = sorted((end % len(walls), neighbor % len(walls)))
     leaving, coming = at_joints(walls, np.array([before]), np.array([after]))[:, 0]
-    return bool(abs(np.angle(coming * np.conj(leaving))) <= BLEND)
+    return bool(abs(np.angle(coming * np.conj(leaving))) <= MAX_TANGENT_ANGLE)
 
 
 def _in_line(walls: PieceArrays, rows: range) -> int:

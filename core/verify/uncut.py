@@ -18,7 +18,7 @@ from core.verify.pairs import Pairs, concentric, covering, nearest, pairs_of, ro
 from core.verify.stretches import Stretches, within
 from core.verify.verdict import Uncut
 
-POINT: Final = 1e-6
+MAX_POINT_LENGTH: Final = 1e-6
 """Millimeters: a part of a piece no longer than this counts as one point."""
 
 ON_EDGE: Final = 1e-7
@@ -154,7 +154,7 @@ def _reached(pairs: Pairs, whole: Flags, radius: float) -> Stretches:
         begin[block], end[block] = _between_feet(pairs, rows[block], limit[rows[block]])
     piece = pairs.i[rows]
     bent = pairs.pieces.arcs[piece] | pairs.others.arcs[pairs.j[rows]]
-    unsure = bent & ((end - begin) * pairs.pieces.length[piece] > POINT)
+    unsure = bent & ((end - begin) * pairs.pieces.length[piece] > MAX_POINT_LENGTH)
     unsure[unsure] = ~concentric(pairs.keep(rows[unsure]))
     unsure |= pairs.least[rows] < radius - pairs.grant[rows]
     sure = (~unsure & (begin <= end)).nonzero()[0]

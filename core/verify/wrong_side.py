@@ -18,19 +18,19 @@ from core.geometry.path import Flags, Floats, Points, Rows
 from core.geometry.piece import Side
 from core.geometry.piece_arrays import BLOCK_PAIRS, PieceArrays, at, direction, place
 from core.tolerance import GOUGE, JOINED, ON_PATH
-from core.verify.farthest import FINE, farthest
+from core.verify.farthest import DISTANCE_TOLERANCE, farthest
 from core.verify.gouge import Gouging, approaches
 from core.verify.pairs import Nearest, Pairs, keeping, nearest
 from core.verify.self_crossings import SelfCrossings, at_joints
 from core.verify.stretches import NO_STRETCHES, Stretches, union
 
-CLEARLY: Final = 1e-6
+MIN_SIDE_SINE: Final = 1e-6
 """A point whose angle to the surface's tangent has a smaller sine is on neither side."""
 
-SHARES: Final = np.linspace(0.0, 1.0, 65)[1:-1, None]
+TESTED_SHARES: Final = np.linspace(0.0, 1.0, 65)[1:-1, None]
 """(63, 1) shares of a part at which its side is tested where walls may contradict each other."""
 
-HALVINGS: Final = 40
+MAX_HALVINGS: Final = 40
 """Bisections that locate a change of side: enough for the last digit of any part's length."""
 
 
@@ -122,7 +122,7 @@ def _with_depth(pairs: Pairs, inside: Stretches, hits: Gouging, wrong: Flags, ra
         return wrong, hits
     slack = float(pairs.pieces.slack.max() + pairs.others.slack.max())
     owner, spots, apart = hits.stretches.index(middle[in_gouge]), spots[in_gouge], apart[in_gouge]
-    apart = np.where(apart >= radius - GOUGE - slack - 2.0 * FINE, radius, apart)
+    apart = np.where(apart >= radius - GOUGE - slack - 2.0 * DISTANCE_TOLERANCE, radius, apart)
     order = np.lexsort((spots, -np.round(apart / ON_PATH), owner))
     best = order[changes(owner[order])]
     gouge, deepest = owner[best], in_gouge[best]
@@ -220,12 +220,12 @@ def _between_arms(pairs: Pairs, parts: Stretches, surface: Sided) -> Floats:
     the part's side of one arm to the cutter's side of the other."""
     if not len(parts):
         return np.zeros(0)
-    s = parts.first + SHARES * (parts.last - parts.first)
+    s = parts.first + TESTED_SHARES * (parts.last - parts.first)
     wrong = _wrong(pairs, s.ravel(), surface).reshape(s.shape)
     changed = wrong[1:] != wrong[:-1]
     low: Floats = s[:-1][changed]
     high, begins = s[1:][changed], wrong[:-1][changed]
-    for _ in range(HALVINGS if len(low) else 0):
+    for _ in range(MAX_HALVINGS if len(low) else 0):
         middle = (low + high) / 2.0
         same = _wrong(pairs, middle, surface) == begins
         low, high = np.where(same, middle, low), np.where(same, high, middle)
@@ -250,7 +250,7 @@ def on_part_side(walls: PieceArrays, points: Points, near: Nearest, surface: Sid
         away = off[joints] - share * wall.vector[joints]
         before = near.j[joints] - (share == 0.0)
         left[joints] = _left_of_joints(walls, before, away, near.apart[joints])
-    wrong: Flags = np.logical_and.reduceat(left * surface.side.sign < -CLEARLY, near.first)
+    wrong: Flags = np.logical_and.reduceat(left * surface.side.sign < -MIN_SIDE_SINE, near.first)
     if not surface.endless:
         foot_at = surface.stations[near.j] + t * wall.length
         outside = (foot_at <= surface.first + JOINED) | (foot_at >= surface.last - JOINED)
@@ -288,6 +288,6 @@ def _left_of_joints(walls: PieceArrays, before: Rows, off: Points, apart: Floats
         rows, turning = np.array((before[back], after[back])), turn.imag[back]
         radius = walls.radius[rows]
         bend = (walls.turn[rows] / np.where(radius == 0.0, 1.0, radius)).sum(axis=0)
-        way = np.sign(np.where(np.abs(turning) < CLEARLY, -bend, turning))
+        way = np.sign(np.where(np.abs(turning) < MIN_SIDE_SINE, -bend, turning))
         left[back] = -way * (np.abs(off[back]) > 0.0)
     return left

@@ -9,7 +9,7 @@ import pytest
 
 from app.terminal.character_set import charset, lookalike, settle
 from app.terminal.driver import characters
-from core.draw.characters import CELLS, Mode
+from core.draw.characters import CELLS_OF_MODE, Mode
 
 BRAILLE_FIRST, BLOCK_FIRST = ("braille", "block", "ascii"), ("block", "ascii")
 
@@ -61,7 +61,11 @@ def test_the_drawing_characters_follow_from_locale_terminal_and_choice(
 def test_each_character_is_replaced_by_one_ascii_character() -> None:
     assert lookalike("│ a… Ünï 中 ⣿ \x9b") == "| a~ Uni ? * ?"
     assert lookalike("╭━╮┃ ▲▼ ✓ ✖ × ▆▏") == "+-+| ^v + ! x ##"
-    drawn = [text for mode in Mode for text in (*CELLS[mode].table, CELLS[mode].arrows, CELLS[mode].bar)]
+    drawn = [
+        text
+        for mode in Mode
+        for text in (*CELLS_OF_MODE[mode].table, CELLS_OF_MODE[mode].arrows, CELLS_OF_MODE[mode].bar)
+    ]
     assert all(len(lookalike(text)) == len(text) and lookalike(text).isascii() for text in drawn)
 
 

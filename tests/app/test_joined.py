@@ -12,13 +12,26 @@ from textual._ansi_sequences import ANSI_SEQUENCES_KEYS
 from textual._xterm_parser import XTermParser
 
 from app.terminal.driver import messages
-from app.terminal.split_keys import CLICK, DELAY, ESC, LATE, MOST, PASTING, REST, TOGETHER, TORN, UNENDED, Joined, delay
+from app.terminal.split_keys import (
+    CLICK,
+    ESC,
+    ESC_SECONDS,
+    LATE_SECONDS,
+    MAX_PASTED,
+    PASTE_SECONDS,
+    REST_SECONDS,
+    SAME_KEY_SECONDS,
+    TORN,
+    UNENDED,
+    Joined,
+    delay,
+)
 
 TAILS = ("[A", "[D", "[5~", "[18~", "[1;5H", "[[A", "[Z", "OS", "OP", "OM", "[?2026;1$y", "[<0;3;4M", "[99~")
 LONG = 60.0
 
 
-def arrived(*pieces: str | float, wait: float = DELAY) -> list[str]:
+def arrived(*pieces: str | float, wait: float = ESC_SECONDS) -> list[str]:
     """The keys made of texts and the seconds between them, followed by a long silence."""
     joined, now, result = Joined(ANSI_SEQUENCES_KEYS, wait), 1000.0, list[str]()
     for piece in (*pieces, LONG):
@@ -48,7 +61,7 @@ def test_a_tail_that_arrives_too_late_is_reported_and_not_typed(tail: str, secon
     assert arrived(ESC, seconds, tail, "7") == [ESC, TORN, "7"]
 
 
-@given(st.sampled_from(TAILS), st.lists(st.floats(0.0, DELAY * 0.99), min_size=11, max_size=11))
+@given(st.sampled_from(TAILS), st.lists(st.floats(0.0, ESC_SECONDS * 0.99), min_size=11, max_size=11))
 @settings(derandomize=True, deadline=None)
 def test_every_byte_as_late_as_esc_waits(tail: str, gaps: list[float]) -> None:
     pieces = [piece for both in zip(ESC + tail, gaps, strict=False) for piece in both]
@@ -57,8 +70,8 @@ def test_every_byte_as_late_as_esc_waits(tail: str, gaps: list[float]) -> None:
 
 @given(
     st.sampled_from([tail for tail in TAILS if tail[0] == "["]),
-    st.floats(0.0, DELAY + LATE * 0.99),
-    st.lists(st.floats(0.0, REST * 0.99), min_size=10, max_size=10),
+    st.floats(0.0, ESC_SECONDS + LATE_SECONDS * 0.99),
+    st.lists(st.floats(0.0, REST_SECONDS * 0.99), min_size=10, max_size=10),
 )
 @settings(derandomize=True, deadline=None)
 def test_nothing_of_a_key_is_typed_however_late_its_bytes_are(tail: str, first: float, gaps: list[float]) -> None:
@@ -67,16 +80,16 @@ def test_nothing_of_a_key_is_typed_however_late_its_bytes_are(tail: str, first: 
 
 
 @pytest.mark.parametrize("tail", [tail for tail in TAILS if tail[0] == "["])
-@pytest.mark.parametrize("seconds", [REST + 0.1, 2.0, REST + LATE - 0.1])
+@pytest.mark.parametrize("seconds", [REST_SECONDS + 0.1, 2.0, REST_SECONDS + LATE_SECONDS - 0.1])
 def test_a_key_whose_end_arrives_very_late_types_nothing(tail: str, seconds: float) -> None:
     for place in range(1, len(tail)):
         assert set(arrived(ESC + tail[:place], seconds, tail[place:])) == {TORN}
 
 
 def test_text_after_a_torn_key_is_typed() -> None:
-    assert arrived(ESC + "[1", REST + 0.5, "2", 0.2, ".", 0.2, "5", 0.2, "\r") == [TORN, *"2.5\r"]
-    assert arrived(ESC + "[", REST + LATE + 0.1, "d") == [TORN, "d"]
-    assert arrived(ESC + "[", REST + 0.5, ESC + "[D") == [TORN, ESC + "[D"]
+    assert arrived(ESC + "[1", REST_SECONDS + 0.5, "2", 0.2, ".", 0.2, "5", 0.2, "\r") == [TORN, *"2.5\r"]
+    assert arrived(ESC + "[", REST_SECONDS + LATE_SECONDS + 0.1, "d") == [TORN, "d"]
+    assert arrived(ESC + "[", REST_SECONDS + 0.5, ESC + "[D") == [TORN, ESC + "[D"]
 
 
 def test_a_key_split_anywhere_types_nothing() -> None:
@@ -116,9 +129,9 @@ def test_text_after_esc_is_alt_only_when_it_follows_at_once(pieces: tuple[str | 
 @pytest.mark.parametrize("seconds", [0.15, 0.5, 1.5])
 def test_text_typed_after_esc_is_typed(text: str, seconds: float) -> None:
     typed = [piece for character in text for piece in (character, 0.2)]
-    if text == "[" and seconds < DELAY:
+    if text == "[" and seconds < ESC_SECONDS:
         assert arrived(ESC, seconds, *typed) == [TORN]
-    elif text == "[[2" and seconds < DELAY:
+    elif text == "[[2" and seconds < ESC_SECONDS:
         pytest.skip("two brackets at once behind Esc are a key of the Linux console")
     else:
         assert arrived(ESC, seconds, *typed) == [ESC, *text]
@@ -126,13 +139,13 @@ def test_text_typed_after_esc_is_typed(text: str, seconds: float) -> None:
 
 @pytest.mark.parametrize("letter", ["U", "S", "A"])
 def test_a_word_beginning_with_o_is_typed_some_time_after_esc(letter: str) -> None:
-    assert arrived(ESC, 0.5, "O", TOGETHER * 1.5, letter) == [ESC, "O", letter]
-    assert arrived(ESC, DELAY + LATE, f"O{letter}") == [ESC, "O", letter]
+    assert arrived(ESC, 0.5, "O", SAME_KEY_SECONDS * 1.5, letter) == [ESC, "O", letter]
+    assert arrived(ESC, ESC_SECONDS + LATE_SECONDS, f"O{letter}") == [ESC, "O", letter]
     assert arrived("1", "O", letter) == ["1", "O", letter]
 
 
 def test_an_incomplete_key_types_nothing_and_the_next_key_works() -> None:
-    assert arrived(f"{ESC}[1", REST * 2, f"{ESC}[A") == [TORN, f"{ESC}[A"]
+    assert arrived(f"{ESC}[1", REST_SECONDS * 2, f"{ESC}[A") == [TORN, f"{ESC}[A"]
     assert arrived(f"{ESC}[", ESC, "[A") == [TORN, f"{ESC}[A"]
     assert arrived(f"{ESC}[{'1' * 40}")[:2] == [ESC, "["]
 
@@ -147,9 +160,9 @@ def test_a_split_paste_arrives_whole() -> None:
 
 def test_a_paste_without_an_end_is_reported_and_keys_work_again() -> None:
     for pasted in ("", "1.5", "x" * 40):
-        assert arrived(f"{ESC}[200~{pasted}", PASTING, "7", f"{ESC}[D") == [UNENDED, "7", f"{ESC}[D"]
+        assert arrived(f"{ESC}[200~{pasted}", PASTE_SECONDS, "7", f"{ESC}[D") == [UNENDED, "7", f"{ESC}[D"]
     assert arrived(f"{ESC}[200~1", 1.9, "2", 1.9, f"3{ESC}[201~", "7") == [f"{ESC}[200~123{ESC}[201~", "7"]
-    assert arrived(f"{ESC}[200~1", PASTING, f"{ESC}[201~", "7") == [UNENDED, f"{ESC}[201~", "7"]
+    assert arrived(f"{ESC}[200~1", PASTE_SECONDS, f"{ESC}[201~", "7") == [UNENDED, f"{ESC}[201~", "7"]
 
 
 def test_a_paste_without_an_end_ends_two_seconds_after_its_last_byte() -> None:
@@ -169,12 +182,12 @@ def test_only_the_beginning_of_a_long_paste_is_held() -> None:
     for second in range(30):
         assert list(joined.feed(piece, float(second))) == []
         assert joined.paste is not None
-        assert len(joined.paste) < MOST + len(piece)
+        assert len(joined.paste) < MAX_PASTED + len(piece)
     assert list(joined.feed(f"{ESC}[20", 31.0)) == []
     (whole,) = joined.feed("1~", 31.0)
     assert whole.startswith(f"{ESC}[200~{piece}")
     assert whole.endswith(f"{ESC}[201~")
-    assert len(whole) < MOST + len(piece)
+    assert len(whole) < MAX_PASTED + len(piece)
 
 
 def test_a_click_requested_by_another_program_types_nothing() -> None:
@@ -187,7 +200,7 @@ def test_a_click_requested_by_another_program_types_nothing() -> None:
 )
 def test_escdelay_sets_the_delay(value: str, seconds: float) -> None:
     assert delay({"ESCDELAY": value}) == delay({"ESCDELAY": value, "TERM": "xterm"}) == pytest.approx(seconds)
-    assert delay({}) == DELAY
+    assert delay({}) == ESC_SECONDS
 
 
 def keys(*units: str) -> list[tuple[str, str | None]]:

@@ -57,4 +57,4 @@ async def test_theme_and_characters_are_kept_in_the_settings():
             await user.app.run_action(action)
         held = user.app.settings_file.held
         assert (held.theme, held.characters) == ("light", "block")
-        assert user.app.theme == theme.LIGHT
+        assert user.app.theme == theme.LIGHT_THEME

@@ -13,7 +13,7 @@ import pytest
 
 from app.documents.files import load
 from app.documents.left_overs import read
-from app.terminal.signals import GRACE
+from app.terminal.signals import GRACE_SECONDS
 from core.program.history import History
 from core.program.model import Number
 from tests.app.test_safety_terminal import PROGRAM
@@ -153,7 +153,7 @@ def test_a_blocked_terminal_cannot_keep_the_program_alive(part: Path) -> None:
         edits = stall(terminal, part.with_name(".part.toml.cutcomp-journal"))
         since = time.monotonic()
         os.kill(terminal.pid, signal.SIGTERM)
-        assert ended(terminal.pid, GRACE + PATIENCE) == 143
+        assert ended(terminal.pid, GRACE_SECONDS + PATIENCE) == 143
         assert time.monotonic() - since > 1.0, "the loop was not blocked: nothing was tested"
         assert termios.tcgetattr(terminal.fd) == before
     history = left(part)

@@ -12,7 +12,7 @@ import pytest
 
 from app.__main__ import main
 from app.documents.files import save
-from core.program.fields import TABLES, Form
+from core.program.fields import FIELDS_OF_FORM, Form
 from core.program.file.read import loads
 from core.program.model import CutterComp
 from core.units import Kind
@@ -30,7 +30,7 @@ ESCAPES = ("\x1b]0;", "\x1b[2J")
 
 def unread(form: Form, path: str) -> str:
     """A table of unread texts for all number fields of a form."""
-    names = [field.name for field in TABLES[form] if field.kind not in (Kind.CHOICE, Kind.TEXT)]
+    names = [field.name for field in FIELDS_OF_FORM[form] if field.kind not in (Kind.CHOICE, Kind.TEXT)]
     lines = [f"{name} = {json.dumps(EVIL)}\n" for name in names if name not in ("number", "lookahead")]
     return f"[{path}.unread]\n{''.join(lines)}"
 

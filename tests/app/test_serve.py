@@ -21,7 +21,7 @@ pytest.importorskip("textual_serve", reason="the extra web is not installed")
 import aiohttp
 
 from app.cli import web_children
-from app.cli.web_server import FULL, SESSIONS, ScreenServer
+from app.cli.web_server import FULL_TEXT, MAX_PAGES, ScreenServer
 from tests.app.serving import children, free_port, none_left, server, some_children
 
 SECRET = "a-secret-of-the-test"
@@ -106,11 +106,11 @@ async def test_the_secret_is_compared_in_constant_time(monkeypatch: pytest.Monke
 
 async def test_a_page_beyond_the_limit_gets_a_sentence_and_no_program(monkeypatch: pytest.MonkeyPatch) -> None:
     async with served(monkeypatch, QUIET) as site:
-        pages = [await site.page() for _ in range(SESSIONS)]
+        pages = [await site.page() for _ in range(MAX_PAGES)]
         answer = await site.get(f"/{SECRET}/")
-        assert (answer.status, await answer.text()) == (503, FULL)
+        assert (answer.status, await answer.text()) == (503, FULL_TEXT)
         extra = await site.page()
-        assert FULL in (await extra.receive_bytes()).decode()
+        assert FULL_TEXT in (await extra.receive_bytes()).decode()
         await pages[0].close()
         for _ in range(40):
             if (await site.get(f"/{SECRET}/")).status == 200:

@@ -22,7 +22,7 @@ from pathlib import Path
 from tempfile import TemporaryDirectory
 from typing import Any, Final
 
-from app.terminal.character_set import ERRORS, settle
+from app.terminal.character_set import LOOKALIKE_ERRORS, settle
 from tests.reports.recorded import Picture, Step, difference, keys_of, masked, recorded
 from tests.reports.terminals import (
     FUNCTION_KEYS,
@@ -139,7 +139,9 @@ class Seat:
         """The first line that is not as it must be, or the cursor that is not seen; empty when all is well."""
         lines = right.lines
         if self.kind.characters != "utf-8":
-            lines = tuple(line.encode(self.kind.characters, ERRORS).decode(self.kind.characters) for line in lines)
+            lines = tuple(
+                line.encode(self.kind.characters, LOOKALIKE_ERRORS).decode(self.kind.characters) for line in lines
+            )
         shown = Picture(masked(self.terminal.screen.display), right.cursor)
         return difference(shown, Picture(lines, right.cursor)) or self.invisible(right)
 

@@ -16,7 +16,7 @@ from pathlib import Path
 from tempfile import TemporaryDirectory
 from typing import Any, Final
 
-from app.terminal.split_keys import DELAY
+from app.terminal.split_keys import ESC_SECONDS
 from tests.bench.keys import until_rest
 from tests.reports.terminals import Colors, Kind, sent
 from tests.terminal import Terminal, cutcomp, running
@@ -97,7 +97,7 @@ def recorded(
                 terminal.send(sent(step))
             if step == "escape":
                 # the program rests while it waits for the rest of a key
-                time.sleep(2 * DELAY)
+                time.sleep(2 * ESC_SECONDS)
             settle(terminal)
             shown = picture(terminal)
             os.kill(terminal.pid, signal.SIGWINCH)

@@ -13,7 +13,7 @@ import tempfile
 import time
 from pathlib import Path
 
-from app.cli.web_server import SESSIONS
+from app.cli.web_server import MAX_PAGES
 from tests.app.serving import none_left, server, some_children
 from tests.reports.browser import browsing, chromium
 
@@ -79,13 +79,13 @@ async def many_tabs(program: str, folder: Path) -> str:
             started: list[int] = []
             for _ in range(120):
                 started = await some_children(process.pid)
-                if len(started) >= SESSIONS:
+                if len(started) >= MAX_PAGES:
                     break
                 await asyncio.sleep(0.5)
             await asyncio.sleep(5.0)
             started = await some_children(process.pid)
             held = list(map(megabytes, started))
-        assert len(started) == SESSIONS, len(started)
+        assert len(started) == MAX_PAGES, len(started)
         assert max(held) < MOST_MEMORY, held
         assert await none_left(started, LONGEST) == []
     return f"{TABS} tabs: {len(started)} programs of at most {max(held)} MB, none left {LONGEST:g} s after the browser"

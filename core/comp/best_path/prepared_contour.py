@@ -22,7 +22,7 @@ _UNDER_HALF_TURN: Final = 3.1
 NOT_WHOLE_TURN: Final = 6.0
 """Radians; an arc that turns through less ends well away from its start."""
 
-RUN: Final = 16
+SEGMENTS_PER_RUN: Final = 16
 """Consecutive segments whose headings are compared together."""
 
 
@@ -219,7 +219,7 @@ def _faces_itself(path: Path, radius: float, low: Floats, high: Floats) -> bool:
     """True if there are segments within the cutter's width whose headings differ by more than half a turn."""
     pieces = piece_arrays(path)
     low, high = low[pieces.rows], high[pieces.rows]
-    box, starts = pieces.boxes, np.arange(0, len(pieces), RUN)
+    box, starts = pieces.boxes, np.arange(0, len(pieces), SEGMENTS_PER_RUN)
     low, high = np.minimum.reduceat(low, starts), np.maximum.reduceat(high, starts)
     least, most = np.minimum.reduceat(box[:2], starts, axis=1), np.maximum.reduceat(box[2:], starts, axis=1)
     runs = np.concatenate((least, most))

@@ -15,7 +15,7 @@ from core.units import Unit
 WHOLE_CHORD: Final = 1 - 1e-12
 """Share of the diameter above which a chord counts as a diameter: rounding must not move the center off it."""
 
-SHORTEST: Final = 0.00127
+MIN_ARC_RADIUS: Final = 0.00127
 """Millimeters (0.00005 in): a smaller radius counts as none; R may be less than half its chord by as much."""
 
 
@@ -54,7 +54,7 @@ class ArcTolerance:
         """Return why an arc about a center is refused, for no radius or two that differ too much; None if it is not."""
         first = hypot(start[0] - center[0], start[1] - center[1])
         last = hypot(end[0] - center[0], end[1] - center[1])
-        if min(first, last) < SHORTEST:
+        if min(first, last) < MIN_ARC_RADIUS:
             return NoArc(
                 "The arc has no radius: its center is its start or its end; correct the center.", fault="ARC-POINT"
             )
@@ -79,7 +79,7 @@ def center_by_radius(start: Point, end: Point, radius: float, turn: int) -> Poin
     chord, size = hypot(dx, dy), abs(radius)
     if chord == 0.0:
         return NoArc("An arc with R cannot end where it starts; write the full circle with its center.")
-    if chord / 2 - size > SHORTEST or size == 0.0:
+    if chord / 2 - size > MIN_ARC_RADIUS or size == 0.0:
         return NoArc("The radius {0} does not reach the end point {1} away; correct R.", (size, chord), "ARC-RADII")
     distance = sqrt(max(size * size - chord * chord / 4, 0.0)) * turn * (1 if radius > 0 else -1)
     if chord / 2 / size > WHOLE_CHORD:

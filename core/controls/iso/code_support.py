@@ -13,7 +13,7 @@ THREEBLOCK: Final = "three-block"
 FANUC: Final = "Fanuc"
 HAAS: Final = "Haas"
 
-CODES: Final[Mapping[int, tuple[str, ...]]] = MappingProxyType(
+CONTROLS_WITH_CODE: Final[Mapping[int, tuple[str, ...]]] = MappingProxyType(
     {
         **dict.fromkeys((70, 80, 431, 432, 611, 901, 911, 922, 923), (LINUXCNC,)),
         **dict.fromkeys((411, 421, 591, 592, 593), (LINUXCNC, ROSETTACNC)),
@@ -33,7 +33,7 @@ TOOL_DATA: Final[Mapping[int, tuple[str, ...]]] = MappingProxyType(
 )
 """The controls on which G10 sets a tool's data, by the L of the block."""
 
-EXPRESSIONS: Final = (LINUXCNC, ROSETTACNC, FANUC, HAAS)
+CONTROLS_WITH_EXPRESSIONS: Final = (LINUXCNC, ROSETTACNC, FANUC, HAAS)
 """The controls with parameters and expressions."""
 
 FREE_ASSIGNMENT: Final = (ROSETTACNC, FANUC, HAAS)
@@ -42,7 +42,7 @@ FREE_ASSIGNMENT: Final = (ROSETTACNC, FANUC, HAAS)
 HIGH_PARAMETERS: Final = (FANUC,)
 """The controls with parameters from #10000 on."""
 
-JUMPS: Final = (FANUC, HAAS)
+CONTROLS_WITH_JUMPS: Final = (FANUC, HAAS)
 """The controls with IF, GOTO, WHILE and DO."""
 
 OFFSETS_ANYWHERE: Final = (NINE_SERIES, FANUC, HAAS)

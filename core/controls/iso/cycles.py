@@ -11,7 +11,7 @@ from collections.abc import Iterator
 from dataclasses import dataclass
 from typing import Final, NoReturn
 
-from core.controls.iso.modal_state import INVERSE, ModalState
+from core.controls.iso.modal_state import INVERSE_TIME, ModalState
 from core.controls.iso.reader import Block, whole_word
 from core.controls.moves import Plane, Point3, flat, solid
 from core.finding import Severity
@@ -22,11 +22,11 @@ CHIP_CLEARANCE: Final = 0.254
 MAX_REPEATS: Final = 10_000
 
 _AXES: Final = (("X", "Y", "Z"), ("Z", "X", "Y"), ("Y", "Z", "X"))
-_PECKS: Final = (730, 830)
+_PECK_CYCLES: Final = (730, 830)
 _FEEDS_OUT: Final = (740, 840, 850, 890)
-_BORE: Final = 850
-_TAPS: Final = (740, 840)
-_DWELLS: Final = (820, 860, 890)
+_BORING_CYCLE: Final = 850
+_TAPPING_CYCLES: Final = (740, 840)
+_DWELL_CYCLES: Final = (820, 860, 890)
 _NOT_FOLLOWED: Final = (870, 880)
 
 DrillMove = tuple[Point3, bool]
@@ -59,7 +59,7 @@ def drill(state: ModalState, block: Block) -> Iterator[DrillMove]:
         first, second, _ = flat(state.target(block.words), state.plane)
         yield solid(first, second, flat(state.position, state.plane)[2], state.plane), True
         return
-    if state.rate == INVERSE:
+    if state.rate == INVERSE_TIME:
         _stop(state, "A drilling cycle does not go with G93; write G94.", block)
     if not state.feed:
         state.no_feed(block)
@@ -127,7 +127,7 @@ def _holes(state: ModalState, code: int, block: Block, *, is_first: bool) -> Ite
 
 def _check_first(state: ModalState, code: int, block: Block) -> None:
     """Check for what some cycles also need in their first block: the peck, or the time at the bottom."""
-    needed = "Q" if code in _PECKS else "P" if code in _DWELLS and state.dialect.table_needed else ""
+    needed = "Q" if code in _PECK_CYCLES else "P" if code in _DWELL_CYCLES and state.dialect.table_needed else ""
     if needed and needed not in block.words:
         _stop(state, f"{needed} is missing: the first G{code // 10} block needs it.", block)
 
@@ -145,13 +145,13 @@ def _hole(state: ModalState, code: int, block: Block, hole: Hole) -> Iterator[Dr
     if hole.approach != hole.r:
         yield hole.at(hole.r), True
     _check_spindle(state, code, block)
-    if code in _PECKS:
+    if code in _PECK_CYCLES:
         yield from _pecks(state, code, block, hole)
     else:
         yield hole.at(hole.bottom), False
     if code in _FEEDS_OUT:
-        yield hole.at(hole.r if code == _BORE else hole.retract), False
-    if code not in _FEEDS_OUT or code == _BORE:
+        yield hole.at(hole.r if code == _BORING_CYCLE else hole.retract), False
+    if code not in _FEEDS_OUT or code == _BORING_CYCLE:
         yield hole.at(hole.retract), True
 
 
@@ -159,7 +159,7 @@ def _check_spindle(state: ModalState, code: int, block: Block) -> None:
     """Check that tapping has its spindle direction, and G86 a turning spindle, if the state at the start is known."""
     if not state.dialect.table_needed:
         return
-    if code in _TAPS and state.plane is not Plane.XY:
+    if code in _TAPPING_CYCLES and state.plane is not Plane.XY:
         _stop(state, "In this plane the control taps along the wrong axes; write G17.", block)
     wanted = {740: -1, 840: 1}.get(code)
     turning = state.turning

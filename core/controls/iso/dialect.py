@@ -13,7 +13,7 @@ from typing import Final
 
 from core.controls.iso.arcs import USUAL_ARC_TOLERANCE, ArcTolerance
 from core.controls.iso.expressions import ParameterStore
-from core.controls.iso.reader import PLAIN_SYNTAX, SWITCHES, Block, Syntax
+from core.controls.iso.reader import COMPENSATION_CODES, PLAIN_SYNTAX, Block, Syntax
 from core.controls.moves import Plane
 from core.units import Unit
 
@@ -62,12 +62,12 @@ class Code:
     value: int = 0
 
 
-PLANES: Final[Mapping[int, Plane]] = MappingProxyType({170: Plane.XY, 180: Plane.ZX, 190: Plane.YZ})
+PLANE_OF_CODE: Final[Mapping[int, Plane]] = MappingProxyType({170: Plane.XY, 180: Plane.ZX, 190: Plane.YZ})
 """The plane that each plane code selects."""
 
 CodeGroup = tuple[str, CodeAction, tuple[int, ...]]
 
-_COMMON: Final[tuple[CodeGroup, ...]] = (
+_COMMON_CODES: Final[tuple[CodeGroup, ...]] = (
     ("motion", CodeAction.MOTION, (0, 10, 20, 30, 800)),
     ("motion", CodeAction.CYCLE, tuple(range(810, 900, 10))),
     ("plane", CodeAction.PLANE, (170, 180, 190)),
@@ -93,7 +93,7 @@ In the motion group, G80 leaves no motion in force, and is ignored next to anoth
 
 def codes(*groups: CodeGroup) -> Mapping[int, Code]:
     """Return the common codes with a control's own added; its own replace common ones."""
-    every = (*_COMMON, *groups)
+    every = (*_COMMON_CODES, *groups)
     return MappingProxyType({code: Code(group, action, code) for group, action, numbers in every for code in numbers})
 
 
@@ -205,6 +205,6 @@ def unused_words(block: Block, mode: int | None, dialect: Dialect) -> list[str]:
         used.update(_USED_BY_CYCLE)
     if dialect.d_anywhere:
         used.update("DH")
-    elif not SWITCHES.isdisjoint(block.g):
+    elif not COMPENSATION_CODES.isdisjoint(block.g):
         used.add("D")
     return [letter for letter in block.words if letter not in used]

@@ -28,21 +28,21 @@ FEED_HOLD FEED RPM CURRENT_TOOL SELECTED_POCKET CURRENT_POCKET X Y Z A B C U V W
 VALUE CALL_LEVEL REMAP_LEVEL SELECTED_TOOL VALUE_RETURNED TASK VMAJOR VMINOR
 """
 
-NAMES: Final = frozenset(f"_{name}" for name in _CONTROL_NAMES.split())
+SYSTEM_NAMES: Final = frozenset(f"_{name}" for name in _CONTROL_NAMES.split())
 """Names whose values the control keeps itself."""
 
-_LOCALS: Final = 30
-_SYSTEM: Final = 5001
-_LAST: Final = 5601
+_LAST_LOCAL: Final = 30
+_FIRST_SYSTEM_PARAMETER: Final = 5001
+_LAST_SYSTEM_PARAMETER: Final = 5601
 _TOOL_AND_PLACE: Final = range(5400, 5429)
 _MACRO_SYSTEM: Final = 5000
 _MACRO_LAST: Final = 6999
-_HIGH: Final = 10_000
+_PARAMETERS_END: Final = 10_000
 
 
 def _no_parameter(index: int, last: int) -> str:
     """Return the sentence that a control has no parameter with a number, and which controls have."""
-    other = f" {only_on(HIGH_PARAMETERS)}" if index >= _HIGH else ""
+    other = f" {only_on(HIGH_PARAMETERS)}" if index >= _PARAMETERS_END else ""
     return f"#{index} is not a parameter; they go from 1 to {last}.{other}"
 
 
@@ -92,18 +92,18 @@ class MacroParameters:
         if self.kept is ParameterStore.MACRO_B:
             return self._variable(index, at)
         self._within(index, at)
-        if index >= _SYSTEM:
+        if index >= _FIRST_SYSTEM_PARAMETER:
             return self._system(index, f"#{index}", at)
-        if index <= _LOCALS and self._outer:
+        if index <= _LAST_LOCAL and self._outer:
             return self.local.get(index, 0.0)
         return self._store(index).get(index)
 
     def _store(self, index: int) -> dict[int, float]:
-        return self.local if index <= _LOCALS else self.numbered
+        return self.local if index <= _LAST_LOCAL else self.numbered
 
     def _within(self, index: int, at: int) -> None:
-        if not 1 <= index <= _LAST:
-            raise FaultError("PARAMETER", _no_parameter(index, _LAST), at)
+        if not 1 <= index <= _LAST_SYSTEM_PARAMETER:
+            raise FaultError("PARAMETER", _no_parameter(index, _LAST_SYSTEM_PARAMETER), at)
 
     def _variable(self, index: int, at: int) -> float:
         if index > _MACRO_LAST:
@@ -125,7 +125,7 @@ class MacroParameters:
 
     def named(self, name: str, at: int) -> float:
         """Return a named value; one without a value is a fault."""
-        if name in NAMES or name.startswith(("_HAL[", "_INI[")):
+        if name in SYSTEM_NAMES or name.startswith(("_HAL[", "_INI[")):
             if name == "_VALUE":
                 return self.returned or 0.0
             if name == "_VALUE_RETURNED":
@@ -141,7 +141,7 @@ class MacroParameters:
 
     def exists(self, name: str) -> bool:
         """True if a name has a value, or the control keeps one for it."""
-        return name in NAMES or name in self._scope(name)
+        return name in SYSTEM_NAMES or name in self._scope(name)
 
     def _scope(self, name: str) -> dict[str, float]:
         return self.shared if name.startswith("_") else self.names
@@ -149,7 +149,7 @@ class MacroParameters:
     def settable(self, key: int | str, at: int) -> None:
         """Refuse a number or name that a program cannot set."""
         if isinstance(key, str):
-            if key in NAMES or key.startswith(("_HAL[", "_INI[")):
+            if key in SYSTEM_NAMES or key.startswith(("_HAL[", "_INI[")):
                 raise FaultError("PARAMETER", f"#<{quoted(key.lower())}> can only be read; choose another name.", at)
         elif self.kept is ParameterStore.MACRO_B:
             if key > _MACRO_LAST:
@@ -160,7 +160,7 @@ class MacroParameters:
             self._within(key, at)
             if key in _TOOL_AND_PLACE:
                 raise FaultError("PARAMETER", f"#{key} can only be read; choose another number.", at)
-            if key >= _SYSTEM:
+            if key >= _FIRST_SYSTEM_PARAMETER:
                 text = f"#{key} changes the control itself, and what follows would be wrong; use the G code for it."
                 raise FaultError("BEYOND", text, at)
 
@@ -182,10 +182,10 @@ class MacroParameters:
         self.returned = value
 
 
-EQUAL: Final = 1e-4
+MAX_EQUAL_DIFFERENCE: Final = 1e-4
 """How far apart two values may be and still be equal."""
 
-_WHOLE: Final = 1e-4
+_MAX_INTEGER_DIFFERENCE: Final = 1e-4
 _NUMBER: Final = re.compile(r"(?:[0-9]++(?:\.[0-9]*+)?|\.[0-9]++)")
 _OPERATOR: Final = re.compile(r"\*\*|MOD|AND|XOR|OR|EQ|NE|GT|GE|LT|LE|[-+*/&|^]")
 _NAME: Final = re.compile(r"<([^<>#=]++(?:\[[^\]]*+\])?[^<>#=]*+)>")
@@ -205,15 +205,15 @@ def _power(left: float, right: float) -> float:
 
 Operation = Callable[[float, float], float]
 
-_RANKS: Final[Mapping[str, tuple[int, Operation]]] = {
+_BINARY_OPERATORS: Final[Mapping[str, tuple[int, Operation]]] = {
     "**": (4, _power),
     "*": (3, lambda left, right: left * right),
     "/": (3, lambda left, right: left / right),
     "MOD": (3, _modulo),
     "+": (2, lambda left, right: left + right),
     "-": (2, lambda left, right: left - right),
-    "EQ": (1, lambda left, right: float(abs(left - right) < EQUAL)),
-    "NE": (1, lambda left, right: float(abs(left - right) >= EQUAL)),
+    "EQ": (1, lambda left, right: float(abs(left - right) < MAX_EQUAL_DIFFERENCE)),
+    "NE": (1, lambda left, right: float(abs(left - right) >= MAX_EQUAL_DIFFERENCE)),
     "GT": (1, lambda left, right: float(left > right)),
     "LT": (1, lambda left, right: float(left < right)),
     "GE": (1, lambda left, right: float(left >= right)),
@@ -249,7 +249,7 @@ class ExpressionReader:
     a higher rank are applied first.  `max_nested`: how deep values may nest, as in ####1.
     """
 
-    ranks = _RANKS
+    ranks = _BINARY_OPERATORS
     max_nested = 50
     nested_rule = "MACRO"
 
@@ -361,7 +361,7 @@ class ExpressionReader:
         if self.text[self.at : self.at + 1] == "<":
             return self.name()
         value = self.value()
-        if abs(value - round(value)) > _WHOLE:
+        if abs(value - round(value)) > _MAX_INTEGER_DIFFERENCE:
             raise FaultError("PARAMETER", "The number of a parameter must be a whole number.", begin)
         return round(value)
 
@@ -409,7 +409,7 @@ class ExpressionReader:
 
 _POINT_ENDS: Final = re.compile(r"[0-9]+\.(?![0-9])")
 
-GAP: Final = "\x01"
+COMMENT_GAP: Final = "\x01"
 """Marks where a comment was: it may be between words, but not between digits."""
 
 
@@ -465,7 +465,7 @@ def _item(reader: ExpressionReader, line: CompactText, words: list[Word], settin
     """Read one word, or one setting of a parameter."""
     begin, text = reader.at, line.text
     first = text[begin]
-    if first == GAP:
+    if first == COMMENT_GAP:
         reader.at += 1
     elif first == "#":
         settings.append(_setting(reader))

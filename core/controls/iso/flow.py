@@ -14,7 +14,7 @@ from dataclasses import dataclass, field
 from typing import Final, NamedTuple, NoReturn
 
 from core.controls.control_run import NOT_RUN_TEXT, Log
-from core.controls.iso.code_support import JUMPS, only_on
+from core.controls.iso.code_support import CONTROLS_WITH_JUMPS, only_on
 from core.controls.iso.dialect import Dialect
 from core.controls.iso.expressions import (
     CompactText,
@@ -49,10 +49,10 @@ MAX_ARGUMENTS: Final = 30
 MAX_O_WORDS: Final = 15_000
 """O-words that may run before cutcomp gives up the run."""
 
-_WORDS: Final = "ENDSUB|SUB|CALL|ELSEIF|ENDIF|IF|ELSE|ENDWHILE|WHILE|DO|ENDREPEAT|REPEAT|BREAK|CONTINUE|RETURN"
+_FLOW_WORDS: Final = "ENDSUB|SUB|CALL|ELSEIF|ENDIF|IF|ELSE|ENDWHILE|WHILE|DO|ENDREPEAT|REPEAT|BREAK|CONTINUE|RETURN"
 _PROGRAM_ALONE: Final = re.compile(r"[ \t]*O[ \t]*0*([0-9]+)[ \t]*(?:\(.*)?$", re.IGNORECASE)
-_LINE: Final = re.compile(rf"(?:N[0-9]++)?O(?:([0-9]++)|<([^<>]++)>|([#\[].*?))({_WORDS})(?=[\[#]|$)")
-_ENDS: Final = {"WHILE": "ENDWHILE", "DO": "WHILE"}
+_LINE: Final = re.compile(rf"(?:N[0-9]++)?O(?:([0-9]++)|<([^<>]++)>|([#\[].*?))({_FLOW_WORDS})(?=[\[#]|$)")
+_LOOP_ENDS: Final = {"WHILE": "ENDWHILE", "DO": "WHILE"}
 
 
 ProgramLibrary = Callable[[int | str], tuple[str, bytes] | None]
@@ -229,7 +229,7 @@ class Flow:
     def _return(self, block: Block) -> bool:
         if "P" in block.words:
             text = "M99 with P goes on at a block number, which cutcomp does not follow. Write the blocks as they run."
-            text = f"{text} {only_on(JUMPS)}"
+            text = f"{text} {only_on(CONTROLS_WITH_JUMPS)}"
             self.log.stop("BRANCH", text, block.line, block.column("P"))
         if len(self.calls) > 1 and self.calls[-1].number is None:
             text = "A subprogram called by its O-word ends with endsub or return, not with M99."
@@ -532,13 +532,13 @@ class OWordFlow(Flow):
 
     def _break(self, word: OWord) -> int:
         opened = self._open(word, "WHILE", "DO")
-        end = self._seek(word, _ENDS[opened.word])
+        end = self._seek(word, _LOOP_ENDS[opened.word])
         del self._opened[word.label]
         return end.row + 1
 
     def _continue(self, word: OWord) -> int:
         opened = self._open(word, "WHILE", "DO")
-        return self._seek(word, _ENDS[opened.word]).row
+        return self._seek(word, _LOOP_ENDS[opened.word]).row
 
 
 MakeControl = Callable[[Log], Control]

@@ -15,9 +15,9 @@ from core.controls.control_run import Log
 from core.controls.control_tools import ToolTable, missing_tool
 from core.controls.iso import cycles
 from core.controls.iso.arcs import IN_PLANE, NoArc, center_by_radius, given_center
-from core.controls.iso.code_support import CODES, OFFSETS_ANYWHERE, TOOL_DATA, lathe_cycle, only_on
-from core.controls.iso.dialect import PLANES, Code, CodeAction, Dialect, unused_words
-from core.controls.iso.modal_state import G54, PER_MINUTE, TAKEN_AS_ZERO, ZERO, ModalState, system_code
+from core.controls.iso.code_support import CONTROLS_WITH_CODE, OFFSETS_ANYWHERE, TOOL_DATA, lathe_cycle, only_on
+from core.controls.iso.dialect import PLANE_OF_CODE, Code, CodeAction, Dialect, unused_words
+from core.controls.iso.modal_state import G54, ORIGIN, PER_MINUTE, TAKEN_AS_ZERO, ModalState, system_code
 from core.controls.iso.reader import Block, whole, whole_word
 from core.controls.moves import Plane, Point3, flat, without_rounding
 from core.finding import Severity
@@ -43,8 +43,8 @@ _G43_2: Final = 432
 _G49: Final = 490
 
 _OTHER_AXES: Final = "ABCUVW"
-_TURNS: Final = {20: -1, 30: 1}
-_ORDER: Final = {
+_ARC_TURNS: Final = {20: -1, 30: 1}
+_ACTION_ORDER: Final = {
     CodeAction.MOTION: 0,
     CodeAction.PLANE: 1,
     CodeAction.UNITS: 2,
@@ -55,16 +55,16 @@ _ORDER: Final = {
 _LATEST: Final = 9
 _G53: Final = 530
 _G80: Final = 800
-_SURFACE: Final = 960
+_SURFACE_SPEED: Final = 960
 _TOOL_CHANGE: Final = 60
-_METRIC: Final = (210, 710)
+_METRIC_CODES: Final = (210, 710)
 _PLANE_CODES: Final = {Plane.XY: 170.0, Plane.ZX: 180.0, Plane.YZ: 190.0}
-_POSITION: Final = {5420: 0, 5421: 1, 5422: 2, "_X": 0, "_Y": 1, "_Z": 2}
-_LINES: Final = (0, 10)
-_MOVES: Final = frozenset((0, 10, 20, 30))
-_ENDS: Final = frozenset((20, 300))
-_STOPS: Final = frozenset((0, 10, 600))
-_CENTERS: Final = frozenset("IJKR")
+_POSITION_PARAMETERS: Final = {5420: 0, 5421: 1, 5422: 2, "_X": 0, "_Y": 1, "_Z": 2}
+_LINE_CODES: Final = (0, 10)
+_MOTION_CODES: Final = frozenset((0, 10, 20, 30))
+_END_CODES: Final = frozenset((20, 300))
+_STOP_CODES: Final = frozenset((0, 10, 600))
+_ARC_CENTER_LETTERS: Final = frozenset("IJKR")
 
 
 class Control(Recorder):
@@ -120,18 +120,18 @@ class Machine(ModalState):
             self._motion(block)
         elif not self.control.active or self.control.takes_effect(non_modal.value, block):
             self._run_non_modal(non_modal, block)
-        if not _STOPS.isdisjoint(block.m):
+        if not _STOP_CODES.isdisjoint(block.m):
             self.control.program_stop()
-        if not _ENDS.isdisjoint(block.m):
+        if not _END_CODES.isdisjoint(block.m):
             self.ended = True
 
     def value_of(self, key: int | str) -> float | str | None:
         """Return a machine value by number or name, a sentence why it has none, or None if it is not known yet."""
-        if key in _POSITION:
+        if key in _POSITION_PARAMETERS:
             if self.control.active and isinstance(key, int):
                 return "The position cannot be read under compensation; write G40 before it."
             position = self.position if isinstance(key, int) else self.control.readable_position(self.position)
-            return from_mm(position[_POSITION[key]] - self.shift[_POSITION[key]], self.unit)
+            return from_mm(position[_POSITION_PARAMETERS[key]] - self.shift[_POSITION_PARAMETERS[key]], self.unit)
         tool, system = self.tools.get(self.tool), self.origin.system
         values: dict[int | str, float] = {
             5220: float((system - 530) // 10 if system <= 590 else system - 584),
@@ -184,7 +184,9 @@ class Machine(ModalState):
         for number in block.g:
             if number not in self.dialect.codes:
                 text = f"cutcomp does not know G{number / 10:g} on this control. Remove it or write the control's code."
-                text = lathe_cycle(number, block.words) or f"{text} {only_on(CODES.get(number, ()))}".rstrip()
+                text = (
+                    lathe_cycle(number, block.words) or f"{text} {only_on(CONTROLS_WITH_CODE.get(number, ()))}".rstrip()
+                )
                 self.log.stop("CODE", text, block.line, block.column("G", number))
 
     def _grouped(self, block: Block) -> list[Code]:
@@ -212,7 +214,7 @@ class Machine(ModalState):
             text = "G0 to G3 next to a drilling cycle cancels the cycle. Write them in two blocks."
             self.log.tell(Severity.WARNING, rule, text, block.line, column)
             known = [code for code in known if code.action is not CodeAction.CYCLE]
-        known.sort(key=lambda code: _ORDER.get(code.action, _LATEST))
+        known.sort(key=lambda code: _ACTION_ORDER.get(code.action, _LATEST))
         return known
 
     def _moves_in(self, block: Block) -> bool:
@@ -223,15 +225,15 @@ class Machine(ModalState):
     def _set(self, code: Code, block: Block) -> None:
         match code.action:
             case CodeAction.MOTION if code.value == _G80 and code.group == "cycle":
-                self.mode = self.mode if self.mode in _MOVES else self.cycle.mode_before
+                self.mode = self.mode if self.mode in _MOTION_CODES else self.cycle.mode_before
                 self.cycle.code = None
             case CodeAction.MOTION:
                 self.mode, self.cycle.code = code.value, None
             case CodeAction.CYCLE:
-                self.cycle.mode_before = self.mode if self.mode in _MOVES else self.cycle.mode_before
+                self.cycle.mode_before = self.mode if self.mode in _MOTION_CODES else self.cycle.mode_before
                 self.mode = code.value
             case CodeAction.PLANE:
-                self.plane = self.control.plane = PLANES[code.value]
+                self.plane = self.control.plane = PLANE_OF_CODE[code.value]
             case CodeAction.UNITS:
                 self._set_units(code.value)
             case CodeAction.DISTANCE:
@@ -239,7 +241,7 @@ class Machine(ModalState):
             case CodeAction.CENTERS:
                 self.absolute_centers = code.value == 901
             case CodeAction.SPINDLE:
-                self.surface_speed = code.value == _SURFACE
+                self.surface_speed = code.value == _SURFACE_SPEED
             case CodeAction.RETRACT:
                 self.cycle.to_r = code.value == 990
             case _:
@@ -258,8 +260,8 @@ class Machine(ModalState):
                 self._select_system(code.value, block)
             case CodeAction.UNSHIFT:
                 # G92.1 forgets the shift of G52 and G92, G92.2 suspends it, G92.3 restores it
-                stored = ZERO if code.value == 921 else self.origin.stored
-                local = stored if code.value == 923 else ZERO
+                stored = ORIGIN if code.value == 921 else self.origin.stored
+                local = stored if code.value == 923 else ORIGIN
                 self.set_origin(replace(self.origin, local=local, stored=stored))
             case CodeAction.LENGTH:
                 self._take_length(code.value, block)
@@ -271,7 +273,7 @@ class Machine(ModalState):
                 self.log.stop("BEYOND", text, block.line, block.column("G", code.value))
 
     def _set_units(self, code: int) -> None:
-        self.unit = self.control.unit = Unit.MM if code in _METRIC else Unit.IN
+        self.unit = self.control.unit = Unit.MM if code in _METRIC_CODES else Unit.IN
         self.scale = 1.0 if self.unit is Unit.MM else 25.4
         self.unit_said = True
 
@@ -304,10 +306,15 @@ class Machine(ModalState):
 
     def _motion(self, block: Block) -> None:
         words, mode = block.words, self.mode
-        if "X" in words or "Y" in words or "Z" in words or (mode in _TURNS and not _CENTERS.isdisjoint(words)):
+        if (
+            "X" in words
+            or "Y" in words
+            or "Z" in words
+            or (mode in _ARC_TURNS and not _ARC_CENTER_LETTERS.isdisjoint(words))
+        ):
             self._travel(block, mode)
-        elif self.dialect.moves_alone and not _MOVES.isdisjoint(block.g):
-            if mode in _TURNS:
+        elif self.dialect.moves_alone and not _MOTION_CODES.isdisjoint(block.g):
+            if mode in _ARC_TURNS:
                 text = "The arc has neither end point nor center; write them."
                 self.log.stop("ARC", text, block.line, block.column("G", mode))
             self._straight(block, self.position, rapid=mode == 0)
@@ -315,10 +322,10 @@ class Machine(ModalState):
             self.control.idle(block)
 
     def _travel(self, block: Block, mode: int | None) -> None:
-        if mode in _LINES:
+        if mode in _LINE_CODES:
             self._straight(block, self.target(block.words), rapid=mode == 0)
-        elif mode in _TURNS:
-            self._arc(block, _TURNS[mode])
+        elif mode in _ARC_TURNS:
+            self._arc(block, _ARC_TURNS[mode])
         elif mode is None or mode == 800:
             text = "Axis words without a motion in force; write G0, G1, G2 or G3."
             self.log.stop("MOTION", text, block.line, block.column("XYZ"))
@@ -439,7 +446,7 @@ class Machine(ModalState):
         """Set the length offset to that of a tool in the table (G43), add it (G43.2), or cancel it (G49)."""
         number = whole(block.words.get("H", float(self.tool)))
         tool = None if number is None or code == _G49 else self.tools.get(number)
-        x, y, z = self.length_offset if code == _G43_2 else ZERO
+        x, y, z = self.length_offset if code == _G43_2 else ORIGIN
         self.set_length_offset((x, y, z + (tool.length_mm(self.unit) if tool else 0.0)))
 
     def _select_system(self, code: int, block: Block) -> None:
@@ -451,7 +458,7 @@ class Machine(ModalState):
 
     def _reading_as_written(self, block: Block, rest: Point3, old: Point3) -> Point3:
         """Return the offset that makes the position read as written on the rest of the origin; old for other axes."""
-        words = self.axis_words(block, ZERO)
+        words = self.axis_words(block, ORIGIN)
         x, y, z = (
             self.position[axis] - words[axis] - rest[axis] if "XYZ"[axis] in block.words else old[axis]
             for axis in range(3)
@@ -480,7 +487,7 @@ class Machine(ModalState):
             text = f"A work offset is set by G10 L2 P1 to P{most} with X, Y, Z, without a rotation R."
             self.log.stop("DATA", text, block.line, block.column("R" if "R" in block.words else "PL"))
         code = system_code(number) if number else self.origin.system
-        old = self.origin.systems.get(code, ZERO)
+        old = self.origin.systems.get(code, ORIGIN)
         offset = self._reading_as_written(block, self.origin.local, old) if from_here else self.axis_words(block, old)
         self.set_system(code, offset)
 
@@ -524,7 +531,7 @@ class Machine(ModalState):
 
     def _move_in_machine(self, block: Block) -> None:
         """Run G53: count this block from machine zero."""
-        if self.mode not in _LINES or self.incremental:
+        if self.mode not in _LINE_CODES or self.incremental:
             text = "G53 goes with G0 or G1 in absolute positions; write G90 G0 G53."
             self.log.stop("MOTION", text, block.line, block.column("G", _G53))
         self._straight(block, self.axis_words(block, self.position), rapid=self.mode == 0)

@@ -15,8 +15,8 @@ from typing import Final
 
 from core.controls.control_run import Log
 from core.controls.iso.expressions import (
+    COMMENT_GAP,
     FUNCTIONS,
-    GAP,
     CompactText,
     ExpressionReader,
     FaultError,
@@ -30,14 +30,14 @@ from core.controls.iso.expressions import (
 from core.controls.program_text import quoted
 from core.finding import Severity
 
-EQUAL: Final = 1e-8
+MAX_EQUAL_SHARE: Final = 1e-8
 """How far apart two values may be, relative to the larger one, and still be equal."""
 
 MAX_BRACKETS: Final = 5
 """How deep brackets may nest, those of functions included."""
 
-LOCALS: Final = 33
-ARGUMENTS: Final = 26
+LAST_LOCAL: Final = 33
+LAST_ARGUMENT: Final = 26
 
 
 class Vacant(float):
@@ -86,9 +86,9 @@ class Variables(MacroParameters):
         """Return a variable's value, a `Vacant` if nothing has set it."""
         if index == 0:
             return VACANT
-        if 1 <= index <= LOCALS:
+        if 1 <= index <= LAST_LOCAL:
             value = self.local.get(index)
-            if value is None and not self._outer and index <= ARGUMENTS:
+            if value is None and not self._outer and index <= LAST_ARGUMENT:
                 self.vacant_arguments = True
             return VACANT if value is None else value
         if is_common(index):
@@ -116,7 +116,7 @@ class Variables(MacroParameters):
     def set(self, key: int | str, value: float) -> None:
         """Give a `settable` variable its value."""
         assert isinstance(key, int)
-        if 1 <= key <= LOCALS:
+        if 1 <= key <= LAST_LOCAL:
             self.local[key] = value
         elif is_common(key):
             self.common[key] = value
@@ -140,18 +140,18 @@ def equal(left: float, right: float) -> bool:
     """True if EQ is: vacant equals only vacant."""
     if isinstance(left, Vacant) or isinstance(right, Vacant):
         return isinstance(left, Vacant) and isinstance(right, Vacant)
-    return abs(left - right) <= EQUAL * max(abs(left), abs(right), 1e-3)
+    return abs(left - right) <= MAX_EQUAL_SHARE * max(abs(left), abs(right), 1e-3)
 
 
-_RELATION: Final = 0
-_RANKS: Final[Mapping[str, tuple[int, Operation]]] = MappingProxyType(
+_RELATION_RANK: Final = 0
+_BINARY_OPERATORS: Final[Mapping[str, tuple[int, Operation]]] = MappingProxyType(
     {
-        "EQ": (_RELATION, equal),
-        "NE": (_RELATION, lambda left, right: not equal(left, right)),
-        "GT": (_RELATION, lambda left, right: left > right),
-        "LT": (_RELATION, lambda left, right: left < right),
-        "GE": (_RELATION, lambda left, right: left >= right),
-        "LE": (_RELATION, lambda left, right: left <= right),
+        "EQ": (_RELATION_RANK, equal),
+        "NE": (_RELATION_RANK, lambda left, right: not equal(left, right)),
+        "GT": (_RELATION_RANK, lambda left, right: left > right),
+        "LT": (_RELATION_RANK, lambda left, right: left < right),
+        "GE": (_RELATION_RANK, lambda left, right: left >= right),
+        "LE": (_RELATION_RANK, lambda left, right: left <= right),
         "+": (1, lambda left, right: left + right),
         "-": (1, lambda left, right: left - right),
         "OR": (1, bits(int.__or__)),
@@ -184,7 +184,7 @@ _FUNCTIONS: Final[Mapping[str, Callable[[float], float]]] = MappingProxyType(
     }
 )
 _FUNCTION: Final = re.compile(r"([A-Z]{2,5})\[")
-_LENGTHS: Final = frozenset("IJKQRUVWXYZ")
+_LENGTH_LETTERS: Final = frozenset("IJKQRUVWXYZ")
 """The letters of words that are lengths."""
 
 
@@ -192,7 +192,7 @@ class MacroReader(ExpressionReader):
     """Reads values as a Fanuc control does; `increment` is the least one of a length in a word, 0 outside words."""
 
     increment = 0.0
-    ranks = _RANKS
+    ranks = _BINARY_OPERATORS
     max_nested = 40
     nested_rule = "PS0118"
 
@@ -251,7 +251,7 @@ class MacroReader(ExpressionReader):
         # a comparison with #0 asks whether a variable is set
         if name not in ("EQ", "NE") or not any(isinstance(side, Vacant) and not side.number for side in (left, right)):
             self.note_use(left, right)
-        if _RANKS[name][0] == _RELATION:
+        if _BINARY_OPERATORS[name][0] == _RELATION_RANK:
             self.differences.append(abs(left - right))
         if name in "/MOD" and right == 0.0:
             raise FaultError("PS0112", "A division by 0. Check the divisor.", at)
@@ -308,7 +308,7 @@ def set_variables(reader: MacroReader, line: CompactText, number: int, values: V
     """Run an assignment, `#1=...`; a second one in its block runs too, and is reported."""
     text = line.text
     for count in range(len(text)):
-        if text[reader.at : reader.at + 1] == GAP:
+        if text[reader.at : reader.at + 1] == COMMENT_GAP:
             reader.at += 1
             continue
         if reader.at >= len(text):
@@ -344,7 +344,7 @@ def words_of(
     while reader.at < len(text):
         begin, first = reader.at, text[reader.at]
         reader.at += 1
-        if first == GAP:
+        if first == COMMENT_GAP:
             continue
         if first == "/":
             reader.at += text[reader.at : reader.at + 1].isdigit()
@@ -358,7 +358,7 @@ def words_of(
             reader.note_use(value)
             if not isinstance(value, Vacant):
                 calculated = "#" in text[begin : reader.at] or "[" in text[begin : reader.at]
-                if calculated and first in _LENGTHS and not macro_call:
+                if calculated and first in _LENGTH_LETTERS and not macro_call:
                     value = reader.to_increment(value)
                 number = plain(value)
                 # the point of a number that is written with one still counts
@@ -374,7 +374,7 @@ def _word_value(reader: MacroReader, letter: str, begin: int) -> float:
     """Return the value of a word; a vacant variable stays vacant with a sign before it too."""
     text = reader.text
     signed = text[reader.at : reader.at + 1] in ("+", "-") and text[reader.at + 1 : reader.at + 2] == "#"
-    if text[reader.at : reader.at + 1] in ("", GAP) or (
+    if text[reader.at : reader.at + 1] in ("", COMMENT_GAP) or (
         text[reader.at].isalpha() and not _FUNCTION.match(text, reader.at)
     ):
         raise FaultError("PS0005", f"{letter} has no number. Write one or remove {letter}.", begin)

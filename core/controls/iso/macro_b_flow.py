@@ -15,7 +15,7 @@ from typing import Final, NamedTuple, NoReturn
 
 from core.controls.control_run import NOT_RUN_TEXT, Log
 from core.controls.iso.dialect import Dialect
-from core.controls.iso.expressions import GAP, CompactText, FaultError
+from core.controls.iso.expressions import COMMENT_GAP, CompactText, FaultError
 from core.controls.iso.flow import Call, Flow, ProgramLibrary, o_words_of
 from core.controls.iso.macro_b import AlarmByProgramError, MacroReader, Variables, set_variables, words_of
 from core.controls.iso.macro_b_machine import MacroMachine
@@ -57,14 +57,14 @@ _NO_O_WORD: Final = (
     r"(?![ \t]*+(?:sub|endsub|call|return|if|elseif|else|endif|while|endwhile|do|repeat|endrepeat|break|continue)\b)"
 )
 """Rejects LinuxCNC's O-words, which do not begin a program."""
-_LEADER: Final = " \t\0\x11\x12\x13\x14\x7f"
+_LEADER_CHARACTERS: Final = " \t\0\x11\x12\x13\x14\x7f"
 """Characters that may precede the first %: blanks, and what paper tapes and their readers leave."""
 
 _PROGRAM: Final = re.compile(r"[ \t]*+[O:][ \t]*+([0-9]{1,8})(?![0-9.])" + _NO_O_WORD, re.IGNORECASE)
 _NAME: Final = re.compile(r"[ \t]*+(O?)[ \t]*+(<[^>]*+>)" + _NO_O_WORD, re.IGNORECASE)
 _CALLING: Final = re.compile(r"(?:M98|G6[56])(?![0-9])")
 _CALLED: Final = re.compile(r"(?<![A-Z])P([0-9]*+)")
-NAMES_TOLD: Final = 3
+MAX_NAMED_PROGRAMS: Final = 3
 """Most programs that a finding names as not run; the rest are only counted."""
 _NUMBER: Final = re.compile(r"[ \t/0-9]*?N[ \t]*+([0-9]{1,8})", re.IGNORECASE)
 _NO_POINT: Final = r"[ \t]*+[-+]?[0 \t]*+[1-9][0-9 \t]*+(?![0-9.])"
@@ -77,7 +77,7 @@ _NO_LENGTHS: Final = re.compile(r"G0?5(?![0-9])|M9[6789]")
 _LETTERS: Final = re.compile(r"(?<![A-Z])(?!DPRNT|BPRNT|POPEN|PCLOS|SETVN)[A-Z]{2,}(?![A-Z\[])|[A-Z][ \t]++[A-Z]{2}")
 _FOR_EDITORS: Final = re.compile(r"[ \t]*+(?:\$[a-z]|#(?:end)?region\b)", re.IGNORECASE)
 """Lines such as $AddRegPart and #region, which never reach a control."""
-_EXPRESSIONS: Final = frozenset("#[,")
+_EXPRESSION_CHARACTERS: Final = frozenset("#[,")
 
 ARGUMENT_NUMBERS: Final[Mapping[str, int]] = MappingProxyType(
     {"A": 1, "B": 2, "C": 3, "D": 7, "E": 8, "F": 9, "H": 11, "I": 4, "J": 5, "K": 6, "M": 13}
@@ -193,8 +193,8 @@ class MacroFlow(Flow):
         ranges = (self._range_of(row) for row in self._programs())
         idle = [first for first, last in ranges if first not in self.called_programs and not any(self.ran[first:last])]
         if idle:
-            names = ", ".join(f"{self._name_of(row)} (line {self.numbers[row]})" for row in idle[:NAMES_TOLD])
-            more = f" and {len(idle) - NAMES_TOLD} more" if len(idle) > NAMES_TOLD else ""
+            names = ", ".join(f"{self._name_of(row)} (line {self.numbers[row]})" for row in idle[:MAX_NAMED_PROGRAMS])
+            more = f" and {len(idle) - MAX_NAMED_PROGRAMS} more" if len(idle) > MAX_NAMED_PROGRAMS else ""
             which = "a call with a variable may mean" if self.calls_by_variable else "nothing in this file calls"
             text = f"Programs that {which} were not run: {names}{more}. Check each by itself."
             self.log.tell(Severity.WARNING, "NOT_RUN", text, self.numbers[idle[0]], 1)
@@ -349,12 +349,12 @@ class MacroFlow(Flow):
             block = Block(self.numbers[row], self.lines[row], self.starts[row])
             plain = fill_words(block, pairs_in(words), self.log, self.dialect.syntax) if words.strip() else None
             return Statement("", CompactText("", ()), plain=plain)
-        bare = without_comments(text, GAP)
+        bare = without_comments(text, COMMENT_GAP)
         line = CompactText.of(bare, self.starts[row])
         if o_words_of([text]):
             message = "O-words are LinuxCNC's. Call subprograms with M98 and macros with G65; write IF, WHILE and GOTO."
             self.log.stop("WORD", message, self.numbers[row], line.column(0))
-        if not _EXPRESSIONS.intersection(bare):
+        if not _EXPRESSION_CHARACTERS.intersection(bare):
             self._note_points(bare, row)
         keyword = _KEYWORD.match(line.text)
         if keyword:
@@ -424,7 +424,7 @@ class MacroFlow(Flow):
     def _go_to(self, reader: MacroReader, row: int) -> int:
         begin = reader.at
         number = reader.value()
-        if reader.at < len(reader.text.rstrip(GAP)):
+        if reader.at < len(reader.text.rstrip(COMMENT_GAP)):
             raise FaultError("PS0114", f"{quoted(reader.text[reader.at :])} cannot follow GOTO.", reader.at)
         return self._row_of(number, row, begin)
 
@@ -444,7 +444,7 @@ class MacroFlow(Flow):
         number = reader.value()
         if number not in (1.0, 2.0, 3.0):
             raise FaultError("PS0126", "The number of a loop is 1, 2 or 3.", begin)
-        if reader.at < len(reader.text.rstrip(GAP)):
+        if reader.at < len(reader.text.rstrip(COMMENT_GAP)):
             raise FaultError("PS0114", f"{quoted(reader.text[reader.at :])} cannot follow here.", reader.at)
         return round(number)
 
@@ -703,14 +703,14 @@ def _between_percents(lines: Sequence[str]) -> tuple[list[str], int | None, int 
 
     A single % begins the program, or ends it if more than comments precede it.
     """
-    percents = [index for index, line in enumerate(lines) if line.lstrip(_LEADER).startswith("%")]
+    percents = [index for index, line in enumerate(lines) if line.lstrip(_LEADER_CHARACTERS).startswith("%")]
     if not percents:
         return list(lines), None, None
     first, last = percents[0], percents[1] if len(percents) > 1 else len(lines)
     if len(percents) == 1 and any(line.strip() and not line.strip().startswith("(") for line in lines[:first]):
         first, last = -1, percents[0]
     kept = [line if first < index < last else "" for index, line in enumerate(lines)]
-    if first >= 0 and _PROGRAM.match(head := lines[first].lstrip(_LEADER)[1:]):
+    if first >= 0 and _PROGRAM.match(head := lines[first].lstrip(_LEADER_CHARACTERS)[1:]):
         kept[first] = head
     before = next((index + 1 for index in range(first) if has_words(lines[index])), None)
     return kept, before, next((index + 1 for index in range(last + 1, len(lines)) if has_words(lines[index])), None)

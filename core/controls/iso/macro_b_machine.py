@@ -20,15 +20,15 @@ from core.controls.iso.dialect import Code, CodeAction, Dialect, p_is_of_g54
 from core.controls.iso.expressions import FaultError
 from core.controls.iso.machine import Control, Machine
 from core.controls.iso.macro_b import VACANT
-from core.controls.iso.modal_state import EXTERNAL, TAKEN_AS_ZERO, ZERO
+from core.controls.iso.modal_state import EXTERNAL_OFFSET, ORIGIN, TAKEN_AS_ZERO
 from core.controls.iso.reader import Block, whole, whole_word
 from core.controls.moves import Plane, Point3, flat, solid
 from core.finding import Severity
 from core.units import Unit, from_mm, to_mm
 
-_LENGTH: Final = 10
+_LENGTH_OFFSETS: Final = 10
 _LENGTH_WEAR: Final = 11
-_RADIUS: Final = 12
+_RADIUS_OFFSETS: Final = 12
 _RADIUS_WEAR: Final = 13
 """The L of G10 that writes each memory of tool offsets."""
 
@@ -44,16 +44,16 @@ LEAST_FACTOR: Final = 0.01
 FIRST_BUILDER_CODE: Final = 1000
 """G codes from G100 on that the control does not have may call macros."""
 
-_CANCELS: Final = (150, 500, 690)
+_CANCEL_CODES: Final = (150, 500, 690)
 """Codes that cancel a transform and leave the axis words of their block for a move."""
 
-_LINE: Final = 10
-_ARCS: Final = frozenset({20, 30})
+_LINE_CODE: Final = 10
+_ARC_CODES: Final = frozenset({20, 30})
 
-_CLOCKS: Final = (3001, 3002, 3011, 3012)
-_POSITIONS: Final = frozenset((5001, 5002, 5003, 5041, 5042, 5043))
+_CLOCK_VARIABLES: Final = (3001, 3002, 3011, 3012)
+_POSITION_VARIABLES: Final = frozenset((5001, 5002, 5003, 5041, 5042, 5043))
 _NO_EFFECT: Final = (3003, 3004, 3006, 3007)
-_GROUPS: Final[Mapping[int, tuple[str, int]]] = MappingProxyType(
+_GROUP_VARIABLES: Final[Mapping[int, tuple[str, int]]] = MappingProxyType(
     {
         4001: ("motion", 0),
         4002: ("plane", 170),
@@ -92,7 +92,7 @@ class Transform:
 
     mirror: Mapping[int, float] = field(default_factory=lambda: MappingProxyType({}))
     factor: float = 1.0
-    fixed: Point3 = ZERO
+    fixed: Point3 = ORIGIN
     angle: float = 0.0
     center: tuple[float, float] = (0.0, 0.0)
     plane: Plane = Plane.XY
@@ -126,7 +126,7 @@ class Transform:
 
     def vector(self, vector: Point3) -> Point3:
         """Return a programmed vector in work coordinates."""
-        (ax, ay, az), (bx, by, bz) = self.applied(ZERO), self.applied(vector)
+        (ax, ay, az), (bx, by, bz) = self.applied(ORIGIN), self.applied(vector)
         return bx - ax, by - ay, bz - az
 
     def flips(self, plane: Plane) -> bool:
@@ -149,12 +149,12 @@ class MacroMachine(Machine):
     def __init__(self, dialect: Dialect, control: Control, tools: ToolTable, log: Log) -> None:
         super().__init__(dialect, control, tools, log)
         self.memories: dict[int, dict[int, float]] = {
-            kind: {} for kind in (_LENGTH, _LENGTH_WEAR, _RADIUS, _RADIUS_WEAR)
+            kind: {} for kind in (_LENGTH_OFFSETS, _LENGTH_WEAR, _RADIUS_OFFSETS, _RADIUS_WEAR)
         }
         self.separate = dialect.diameters_apart
         self.transform = Transform()
         self.unknown: set[int] = set()
-        self.in_force = dict(_GROUPS.values()) | {"units": 200 if dialect.unit is Unit.IN else 210}
+        self.in_force = dict(_GROUP_VARIABLES.values()) | {"units": 200 if dialect.unit is Unit.IN else 210}
         self.last_words: dict[str, float] = {}
         self.polar: tuple[float, float] | None = None
         self.current = Block(1, "")
@@ -227,9 +227,9 @@ class MacroMachine(Machine):
 
     def _motion(self, block: Block) -> None:
         if block.corner is not None:
-            if self.mode in _ARCS:
+            if self.mode in _ARC_CODES:
                 self._stop_at_arc_corner(block)
-            if self.mode != _LINE or {"X", "Y", "Z"}.isdisjoint(block.words):
+            if self.mode != _LINE_CODE or {"X", "Y", "Z"}.isdisjoint(block.words):
                 self._stop_without_two_lines(block)
         super()._motion(block)
 
@@ -247,7 +247,7 @@ class MacroMachine(Machine):
         if block.corner is None or block is not self.current:
             super()._straight(block, end, rapid=rapid)
             return
-        if following is not None and not _ARCS.isdisjoint(following.g):
+        if following is not None and not _ARC_CODES.isdisjoint(following.g):
             self._stop_at_arc_corner(block)
         if following is None or rapid or not self._goes_on_straight(following):
             self._stop_without_two_lines(block)
@@ -338,11 +338,11 @@ class MacroMachine(Machine):
         super()._act(code, block)
 
     def _run_non_modal(self, code: Code, block: Block) -> None:
-        if block.corner is not None and code.value not in _CANCELS:
+        if block.corner is not None and code.value not in _CANCEL_CODES:
             self._stop_without_two_lines(block)
         if code.action is CodeAction.TRANSFORM:
             self._set_transform(code.value, block)
-            if code.value in _CANCELS:
+            if code.value in _CANCEL_CODES:
                 self._motion(block)
         elif code.action is CodeAction.SKIP:
             text = "Where a skip signal stops this move is not known; cutcomp runs it to its end."
@@ -485,9 +485,9 @@ class MacroMachine(Machine):
         if number is None or number < 0:
             self.log.stop("PS0031", "G10 needs P and the number of the offset.", block.line, block.column("GP"))
         if kind == 1 or kind in self.memories:
-            self._set_offset(_LENGTH if kind == 1 else kind, number, block)
+            self._set_offset(_LENGTH_OFFSETS if kind == 1 else kind, number, block)
         elif kind == 2 and number <= 6:
-            self._set_work_offset(530 + 10 * number if number else EXTERNAL, block)
+            self._set_work_offset(530 + 10 * number if number else EXTERNAL_OFFSET, block)
         elif kind == 20 and 1 <= number <= 300:
             self._set_work_offset(EXTENDED_SYSTEM + number, block)
         else:
@@ -495,10 +495,10 @@ class MacroMachine(Machine):
             self.log.stop("PS0031", text, block.line, block.column("LP"))
 
     def _set_work_offset(self, code: int, block: Block) -> None:
-        old = self.origin.systems.get(code, ZERO)
+        old = self.origin.systems.get(code, ORIGIN)
         offset = self.axis_words(block, old)
         if self.incremental:
-            x, y, z = (before + step for before, step in zip(old, self.axis_words(block, ZERO), strict=True))
+            x, y, z = (before + step for before, step in zip(old, self.axis_words(block, ORIGIN), strict=True))
             offset = (x, y, z)
         self.set_system(code, offset)
 
@@ -506,13 +506,13 @@ class MacroMachine(Machine):
         if "R" not in block.words:
             self.log.stop("PS0032", "G10 needs R and the value of the offset.", block.line, block.column("GL"))
         self._write_offset(kind, number, block.words["R"] * self.scale / self._radii_in(kind), add=self.incremental)
-        if kind not in (_RADIUS, _RADIUS_WEAR) and not self.separate:
+        if kind not in (_RADIUS_OFFSETS, _RADIUS_WEAR) and not self.separate:
             text = "Lengths and radii are taken to share one memory, so this value is a radius for D too."
             self.log.tell(Severity.INFO, "FN-SHARED", text, block.line, block.column("L"))
 
     def _radii_in(self, kind: int) -> float:
         """Return how many radii a value of this L is; warn once if it is 2, a diameter."""
-        if kind not in (_RADIUS, _RADIUS_WEAR) or not self.dialect.diameters_apart:
+        if kind not in (_RADIUS_OFFSETS, _RADIUS_WEAR) or not self.dialect.diameters_apart:
             return 1.0
         if not self.log.has("HAAS-DIAMETER"):
             text = "D is taken as a diameter (setting 40 DIAMETER). With RADIUS the control uses twice this offset."
@@ -521,11 +521,11 @@ class MacroMachine(Machine):
 
     def _write_offset(self, kind: int, number: int, value: float, *, add: bool = False) -> None:
         """Write a value in millimeters, or add it, to the memory of an L, and to that of D while they share one."""
-        if kind in (_RADIUS, _RADIUS_WEAR):
+        if kind in (_RADIUS_OFFSETS, _RADIUS_WEAR):
             self.separate = True
-        radii, kinds = self.memories[_RADIUS], [kind]
+        radii, kinds = self.memories[_RADIUS_OFFSETS], [kind]
         if not self.separate:
-            kinds.append(_RADIUS_WEAR if kind == _LENGTH_WEAR and number in radii else _RADIUS)
+            kinds.append(_RADIUS_WEAR if kind == _LENGTH_WEAR and number in radii else _RADIUS_OFFSETS)
         before = self._geometry_radius(number) or 0.0
         for memory in (self.memories[each] for each in kinds):
             known = memory.get(number, before if memory is radii else 0.0)
@@ -539,7 +539,7 @@ class MacroMachine(Machine):
 
     def _geometry_radius(self, number: int) -> float | None:
         """Return the radius of a D without its wear: the program's, else that of the tool in the table."""
-        radius, tool = self.memories[_RADIUS].get(number), self.tools.get(number)
+        radius, tool = self.memories[_RADIUS_OFFSETS].get(number), self.tools.get(number)
         return tool.diameter_mm(self.unit) / 2 if radius is None and tool is not None else radius
 
     # variables
@@ -551,17 +551,17 @@ class MacroMachine(Machine):
         self._refuse_unknown_memory(key)
         if (offset := self._offset_place(key)) is not None:
             return self._offset_variable(*offset)
-        if key in _GROUPS:
-            code = self.in_force[_GROUPS[key][0]]
+        if key in _GROUP_VARIABLES:
+            code = self.in_force[_GROUP_VARIABLES[key][0]]
             return float(code - EXTENDED_SYSTEM) if code > EXTENDED_SYSTEM else code / 10
         if key in _LAST_WORDS:
             return self.last_words.get(_LAST_WORDS[key], VACANT)
-        if key in _CLOCKS or 1000 <= key <= 1135:
+        if key in _CLOCK_VARIABLES or 1000 <= key <= 1135:
             self._tell_unknown_value(key)
             return 0.0
         if 3000 <= key <= 3999:
             return 0.0
-        if key in _POSITIONS:
+        if key in _POSITION_VARIABLES:
             return self._position_variable(key)
         if 5021 <= key <= 5023 or 5061 <= key <= 5083:
             self._tell_unknown_value(key)
@@ -594,27 +594,27 @@ class MacroMachine(Machine):
         """Return the L of G10 that writes a variable's memory, and the offset's number in it; None for any other."""
         if self.dialect.diameters_apart:
             row, index = divmod(key - 2001, 200)
-            return (_LENGTH + row, index + 1) if 0 <= row < 4 else None
+            return (_LENGTH_OFFSETS + row, index + 1) if 0 <= row < 4 else None
         if 2001 <= key <= 2400:
-            return (_LENGTH, key - 2200) if key > 2200 else (_LENGTH_WEAR, key - 2000)
-        kinds = {10: _LENGTH_WEAR, 11: _LENGTH, 12: _RADIUS_WEAR, 13: _RADIUS}
+            return (_LENGTH_OFFSETS, key - 2200) if key > 2200 else (_LENGTH_WEAR, key - 2000)
+        kinds = {10: _LENGTH_WEAR, 11: _LENGTH_OFFSETS, 12: _RADIUS_WEAR, 13: _RADIUS_OFFSETS}
         return (kinds[key // 1000], key % 1000) if 10_001 <= key <= 13_999 else None
 
     def _offset_variable(self, kind: int, number: int) -> float:
         memory, tool = self.memories[kind], self.tools.get(number)
         value = memory.get(number, 0.0)
-        if kind == _RADIUS:
+        if kind == _RADIUS_OFFSETS:
             value = self._geometry_radius(number) or 0.0
-        elif kind == _LENGTH and number not in memory:
+        elif kind == _LENGTH_OFFSETS and number not in memory:
             value = to_mm(tool.length, tool.unit or self.unit) if tool else 0.0
         return from_mm(value * self._radii_in(kind), self.unit)
 
     def _origin_variable(self, key: int) -> float | None:
-        place = (EXTERNAL, key - 5201) if 5201 <= key <= 5203 else _work_offset_place(key)
+        place = (EXTERNAL_OFFSET, key - 5201) if 5201 <= key <= 5203 else _work_offset_place(key)
         if place is not None:
             # a Haas keeps what G52 shifts in #5201 to #5203
             local = self.origin.local[place[1]] if self.dialect.diameters_apart and 5201 <= key <= 5203 else 0.0
-            return from_mm(self.origin.systems.get(place[0], ZERO)[place[1]] + local, self.unit)
+            return from_mm(self.origin.systems.get(place[0], ORIGIN)[place[1]] + local, self.unit)
         return 0.0 if 5201 <= key <= 5328 or 2500 <= key <= 2806 or 7001 <= key <= 7999 else None
 
     def set_variable(self, key: int, value: float) -> bool:
@@ -624,11 +624,11 @@ class MacroMachine(Machine):
         if (offset := self._offset_place(key)) is not None:
             self._write_offset(*offset, millimeters / self._radii_in(offset[0]))
             return True
-        if key in _NO_EFFECT or key in _CLOCKS or 1100 <= key <= 1135:
+        if key in _NO_EFFECT or key in _CLOCK_VARIABLES or 1100 <= key <= 1135:
             return True
         if (place := _work_offset_place(key)) is None:
             return False
-        origin = list(self.origin.systems.get(place[0], ZERO))
+        origin = list(self.origin.systems.get(place[0], ORIGIN))
         origin[place[1]] = millimeters
         self.set_system(place[0], (origin[0], origin[1], origin[2]))
         return True
@@ -645,4 +645,4 @@ def _work_offset_place(key: int) -> tuple[int, int] | None:
     axis, number = divmod(key - 2500, 100)
     if not 0 <= axis <= 2 or number > 6:
         return None
-    return 530 + 10 * number if number else EXTERNAL, axis
+    return 530 + 10 * number if number else EXTERNAL_OFFSET, axis

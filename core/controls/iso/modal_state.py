@@ -19,22 +19,22 @@ from core.finding import Finding, Severity
 from core.tolerance import GOUGE
 from core.units import Unit
 
-ZERO: Final[Point3] = (0.0, 0.0, 0.0)
+ORIGIN: Final[Point3] = (0.0, 0.0, 0.0)
 G54: Final = 540
 
-EXTERNAL: Final = 0
+EXTERNAL_OFFSET: Final = 0
 """The key of the offset that shifts all work offsets, on controls that have one."""
 
 TAKEN_AS_ZERO: Final = "is not in the program; it is taken as zero."
 """Ends the finding on a work offset that the program does not set: its positions compare with no other offset's."""
 
-INVERSE: Final = 930
+INVERSE_TIME: Final = 930
 PER_MINUTE: Final = 940
 
 RADIUS_ZERO: Final = frozenset(("RADIUS0", "B3-DIA0", "FN-D0"))
 """Rules that report compensation that is turned on but offsets nothing."""
 
-_SPINDLE: Final = {30: 1, 40: -1, 50: 0, 190: 0}
+_SPINDLE_TURN: Final = {30: 1, 40: -1, 50: 0, 190: 0}
 
 
 def system_code(number: int) -> int:
@@ -51,14 +51,14 @@ class Origin:
 
     systems: Mapping[int, Point3] = field(default_factory=lambda: MappingProxyType({}))
     system: int = G54
-    local: Point3 = ZERO
-    stored: Point3 = ZERO
+    local: Point3 = ORIGIN
+    stored: Point3 = ORIGIN
 
     @property
     def base(self) -> Point3:
         """The work offset in force plus the one that shifts all work offsets."""
-        x, y, z = self.systems.get(self.system, ZERO)
-        dx, dy, dz = self.systems.get(EXTERNAL, ZERO)
+        x, y, z = self.systems.get(self.system, ORIGIN)
+        dx, dy, dz = self.systems.get(EXTERNAL_OFFSET, ORIGIN)
         return x + dx, y + dy, z + dz
 
     @property
@@ -105,9 +105,9 @@ class ModalState:
         self.unit_said = False
         self.mode = dialect.mode
         self.plane = Plane.XY
-        self.position = ZERO
+        self.position = ORIGIN
         self.origin = Origin()
-        self.shift = ZERO
+        self.shift = ORIGIN
         self.incremental = False
         self.absolute_centers = dialect.absolute_centers
         self.feed = 0.0
@@ -118,7 +118,7 @@ class ModalState:
         self.cycle = Cycle(to_r=dialect.returns_to_r)
         self.tool = 0
         self.next_tool = 0
-        self.length_offset = ZERO
+        self.length_offset = ORIGIN
         self.ended = False
 
     def target(self, words: Mapping[str, float], start: Point3 | None = None) -> Point3:
@@ -162,7 +162,7 @@ class ModalState:
 
     def set_rate(self, code: int) -> None:
         """Set G93, G94 or G95; clear the feed if the meaning of F changes, or if the control always clears it."""
-        if code != self.rate or (self.dialect.rate_clears_feed and code != INVERSE):
+        if code != self.rate or (self.dialect.rate_clears_feed and code != INVERSE_TIME):
             self.feed = 0.0
         self.rate = code
 
@@ -171,12 +171,12 @@ class ModalState:
         if "S" in block.words:
             self.speed = abs(block.words["S"])
         for code in block.m:
-            self.turning = _SPINDLE.get(code, self.turning)
+            self.turning = _SPINDLE_TURN.get(code, self.turning)
 
     def feed_over(self, block: Block, length: float) -> float:
         """Return the feed of a move of this length, in millimeters per minute; 0 if it is not known."""
         column = block.column("FXYZIJ")
-        if self.rate == INVERSE:
+        if self.rate == INVERSE_TIME:
             if "F" not in block.words:
                 text = "Under G93 every move at feed needs its own F; write it in this block."
                 self.log.stop("FEED", text, block.line, column)

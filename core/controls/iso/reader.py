@@ -13,11 +13,11 @@ from math import inf
 from typing import Final
 
 from core.controls.control_run import Log
-from core.controls.iso.code_support import EXPRESSIONS, JUMPS, only_on
-from core.controls.iso.expressions import GAP, CompactText, MacroParameters, Word, evaluated_line, not_a_word
+from core.controls.iso.code_support import CONTROLS_WITH_EXPRESSIONS, CONTROLS_WITH_JUMPS, only_on
+from core.controls.iso.expressions import COMMENT_GAP, CompactText, MacroParameters, Word, evaluated_line, not_a_word
 from core.controls.program_text import capitals, quoted
 from core.finding import Severity
-from core.tolerance import LARGEST
+from core.tolerance import LARGEST_COORDINATE
 
 NUMBER: Final = r"[-+]?(?:[0-9]++(?:\.[0-9]*+)?|\.[0-9]++)"
 """The pattern of a word's number."""
@@ -39,7 +39,7 @@ INTEGER_TOLERANCE: Final = 1e-4
 LONGEST_STRICT: Final = 252
 """The longest line, without its end, that LinuxCNC's interpreter reads (tried with rs274)."""
 
-SWITCHES: Final = frozenset((410, 420, 411, 421))
+COMPENSATION_CODES: Final = frozenset((410, 420, 411, 421))
 """The codes that turn compensation on."""
 
 
@@ -105,7 +105,7 @@ class Block:
 
     def side_column(self) -> int:
         """Return the column of the code that turns compensation on."""
-        return self.column("G", next((code for code in self.g if code in SWITCHES), None))
+        return self.column("G", next((code for code in self.g if code in COMPENSATION_CODES), None))
 
 
 def tenths(value: float) -> int | None:
@@ -148,8 +148,8 @@ def read_line(
     With `values`, expressions are evaluated and parameters are set.
     """
     upper = capitals(text)
-    if GAP in text:
-        log.stop("WORD", not_a_word(GAP), line, text.index(GAP) + 1)
+    if COMMENT_GAP in text:
+        log.stop("WORD", not_a_word(COMMENT_GAP), line, text.index(COMMENT_GAP) + 1)
     if syntax.strict:
         _check_strictly(upper, line, log)
     if _CLEAN.fullmatch(upper):
@@ -221,7 +221,8 @@ def _read_closely(
     if not bare.strip() or bare.strip() == "%":
         return [block] if block.data else []
     if branch := _BRANCH.match(bare):
-        text = f"cutcomp follows no {branch[1]} on this control. Write the blocks out as they run. {only_on(JUMPS)}"
+        others = only_on(CONTROLS_WITH_JUMPS)
+        text = f"cutcomp follows no {branch[1]} on this control. Write the blocks out as they run. {others}"
         log.stop("BRANCH", text, block.line, block.start + branch.start(1) + 1)
     if values is not None and _EXPRESSION.search(bare):
         return _evaluated_block(block, log, values)
@@ -235,7 +236,7 @@ def _read_closely(
 
 def _evaluated_block(block: Block, log: Log, values: MacroParameters) -> list[Block]:
     """Return the block of a line with parameters or expressions; none if the line only sets parameters."""
-    marked = without_comments(capitals(block.text), GAP)
+    marked = without_comments(capitals(block.text), COMMENT_GAP)
     skip = len(marked) - len(marked.lstrip()) + 1 if marked.lstrip().startswith("/") else 0
     block.evaluated = evaluated_line(CompactText.of(marked[skip:], block.start + skip), block.line, values, log)
     return [fill_words(block, block.evaluated, log)] if block.evaluated else []
@@ -247,8 +248,8 @@ def _without_blanks(block: Block, log: Log) -> str:
     if nested:
         text = "A comment begins inside a comment; close the first one."
         log.stop("COMMENT", text, block.line, block.start + nested.end())
-    bare = without_comments(capitals(block.text), GAP)
-    return bare.replace(" ", "").replace("\t", "").replace(GAP, " ")
+    bare = without_comments(capitals(block.text), COMMENT_GAP)
+    return bare.replace(" ", "").replace("\t", "").replace(COMMENT_GAP, " ")
 
 
 def pairs_in(upper: str) -> list[tuple[str, str]]:
@@ -272,7 +273,7 @@ def fill_words(
         if letter in words and not (letter in "IJK" and syntax.last_counts and not {650, 660, 661}.isdisjoint(block.g)):
             _tell_twice(letter, block, log, syntax)
         words[letter] = value = float(number)
-        if not -LARGEST < value < LARGEST:
+        if not -LARGEST_COORDINATE < value < LARGEST_COORDINATE:
             text = f"The number of {letter} is too large for any machine."
             log.stop("NUMBER", text, block.line, block.column(letter))
     return block
@@ -310,7 +311,7 @@ def _fault(block: Block, bare: str, log: Log, syntax: Syntax) -> None:
         log.stop("WORD", text, block.line, column)
     if any(character in rest[:80] for character in "#[<="):
         text = f"{quoted(rest)} is an expression; cutcomp evaluates none for this control. Write the number."
-        text = f"{text} {only_on(EXPRESSIONS)}"
+        text = f"{text} {only_on(CONTROLS_WITH_EXPRESSIONS)}"
         log.stop("MACRO", text, block.line, column)
     log.stop("WORD", f"{quoted(rest)} is not a word. Write a letter and a number.", block.line, column)
 

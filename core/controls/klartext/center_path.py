@@ -31,7 +31,7 @@ M97: Final = KLARTEXT_CORNERS._replace(outside=Outside.MEETING)
 M98: Final = KLARTEXT_CORNERS._replace(inside=Inside.OPEN)
 """An inside corner is not trimmed: both elements run their full length."""
 
-ROUNDED: Final = 1e-11
+ROUNDING_ERROR: Final = 1e-11
 """Millimeters by which rounding moves a line that is meters from the origin; it moves the meeting with a nearly
 parallel line by this over the angle in radians."""
 
@@ -327,7 +327,7 @@ class CenterPathRecorder:
         """True if two offsets meet only beyond their ends at the corner."""
         if joint.start != joint.end:
             return False
-        slack = max(JOINED, ROUNDED / max(abs(elements.turn_angle(first, second)), elements.SAME_DIRECTION))
+        slack = max(JOINED, ROUNDING_ERROR / max(abs(elements.turn_angle(first, second)), elements.SAME_DIRECTION))
         end, begin = elements.offset_end(first, offset), elements.offset_start(second, offset)
         return min(advance(first, joint.end, end), advance(second, begin, joint.end)) < -slack
 

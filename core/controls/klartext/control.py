@@ -85,7 +85,7 @@ def _run_blocks(state: State, progress: Progress) -> None:
         if block.more and not (block.head == "CYCL" and _WITH_VALUES.match(block.body)):
             text = "cutcomp reads a ~, which continues a block, only in CYCL DEF with Q parameters. Write one line."
             state.stop("BEYOND", text, block)
-        HEADS.get(block.head, setup_blocks.unknown)(state, block)
+        BLOCK_FUNCTIONS.get(block.head, setup_blocks.unknown)(state, block)
         if state.cycle_due:
             state.cycle_due = False
             cycles.call(state, block)
@@ -201,7 +201,7 @@ def _condition(state: State, block: Block) -> None:
         _jump(state, block, label[1])
 
 
-HEADS: Final[Mapping[str, Callable[[State, Block], None]]] = MappingProxyType(
+BLOCK_FUNCTIONS: Final[Mapping[str, Callable[[State, Block], None]]] = MappingProxyType(
     {
         "L": path_functions.line,
         "LP": path_functions.polar_line,

@@ -14,44 +14,44 @@ from core.controls.klartext.formulas import evaluate
 from core.controls.klartext.path_functions import straight_element
 from core.controls.klartext.reader import Block
 from core.controls.klartext.setup_blocks import shift
-from core.controls.klartext.state import AXES, COMMON_WORDS, State
+from core.controls.klartext.state import AXIS_WORDS, COMMON_WORDS, State
 from core.finding import Severity
 from core.units import to_mm
 
 _CYCLE: Final = re.compile(r"\s*(DEF|CALL)\s*(?:(\d+)(?:\.(\d+))?)?", re.ASCII)
 _POSITION: Final = re.compile(r"\s*CALL\s*(POS|PAT)?", re.ASCII)
 _VALUE: Final = re.compile(r"Q(\d{1,3})\s*=\s*(\S+)", re.ASCII)
-_HEIGHTS: Final = frozenset(("Q200", "Q203", "Q204"))
+_HEIGHT_PARAMETERS: Final = frozenset(("Q200", "Q203", "Q204"))
 """Set-up clearance, surface and 2nd set-up clearance."""
 
-_ANY: Final = r"([-+.,\dQLR]+)"
+_ANY_NUMBER: Final = r"([-+.,\dQLR]+)"
 _NEUTRAL: Final = {
     8: (re.compile(r"\s*", re.ASCII), 0.0),
-    10: (re.compile(rf"\s*ROT\s*{_ANY}\s*", re.ASCII), 0.0),
-    11: (re.compile(rf"\s*SCL\s*{_ANY}\s*", re.ASCII), 1.0),
-    19: (re.compile(rf"(?:\s*A\s*{_ANY})?(?:\s*B\s*{_ANY})?(?:\s*C\s*{_ANY})?\s*", re.ASCII), 0.0),
+    10: (re.compile(rf"\s*ROT\s*{_ANY_NUMBER}\s*", re.ASCII), 0.0),
+    11: (re.compile(rf"\s*SCL\s*{_ANY_NUMBER}\s*", re.ASCII), 1.0),
+    19: (re.compile(rf"(?:\s*A\s*{_ANY_NUMBER})?(?:\s*B\s*{_ANY_NUMBER})?(?:\s*C\s*{_ANY_NUMBER})?\s*", re.ASCII), 0.0),
 }
 """Cycles that mirror, turn, scale or tilt: their words, and the value at which these change nothing."""
 
-_MOVED: Final = frozenset((8, 10, 11, 19, 26, 27, 28, 29, 247))
+_TRANSFORM_CYCLES: Final = frozenset((8, 10, 11, 19, 26, 27, 28, 29, 247))
 """Cycles that change where the contour lies."""
 
-_PATTERNS: Final = frozenset((220, 221))
+_PATTERN_CYCLES: Final = frozenset((220, 221))
 """Cycles that run the cycle before them at many points as soon as they are defined."""
 
-_DRILLING: Final = frozenset((*range(200, 208), 209, 240, 241))
-_TAPPING: Final = frozenset((1, 2, 17, 18))
-_RETURNING: Final = _TAPPING | {3, 4, 5, 212, 213, 214, 215}
+_DRILLING_CYCLES: Final = frozenset((*range(200, 208), 209, 240, 241))
+_TAPPING_CYCLES: Final = frozenset((1, 2, 17, 18))
+_RETURNING_CYCLES: Final = _TAPPING_CYCLES | {3, 4, 5, 212, 213, 214, 215}
 _NOT_CALLED: Final = frozenset((9, 13, 14, 20, 32, 39))
 """Cycles without a call: a dwell, an orientation, data of a contour or a tolerance."""
 
-_CONTOUR: Final = frozenset((6, 16, 22, 23, 24, 25, *range(271, 277)))
+_CONTOUR_CYCLES: Final = frozenset((6, 16, 22, 23, 24, 25, *range(271, 277)))
 """Cycles that offset and mill a contour by themselves: what they cut would not be judged."""
 
-_PROGRAM: Final = 12
+_PROGRAM_CALL_CYCLE: Final = 12
 _FIRST_PROBE: Final = 400
 
-SKIPPED: Final = "The moves of cycle {} are skipped; {}."
+SKIPPED_TEXT: Final = "The moves of cycle {} are skipped; {}."
 NOT_JUDGED: Final = "What cycle {} mills is not judged; {}."
 
 
@@ -75,7 +75,7 @@ def cycle(state: State, block: Block) -> None:
     elif number == 247 and _at_the_start(state):
         text = "Cycle 247 selects the workpiece datum. All positions count from it."
         state.tell(Severity.INFO, "IGNORED", text, block)
-    elif number in _MOVED or number >= _FIRST_PROBE:
+    elif number in _TRANSFORM_CYCLES or number >= _FIRST_PROBE:
         text = f"Cycle {number} moves or transforms the contour, which is not supported. Write out its moves."
         state.stop("BEYOND", text, block)
     else:
@@ -93,7 +93,7 @@ def _is_neutral(state: State, block: Block, number: int, body: str) -> bool:
 
 def _define(state: State, block: Block, number: int) -> None:
     """Define a cycle that waits for its call, or a pattern, which calls the cycle before it at once."""
-    if number in _PATTERNS:
+    if number in _PATTERN_CYCLES:
         _pass_over(state, block, number, None, pattern=True)
         return
     _take_values(state, block)
@@ -106,7 +106,7 @@ def _define(state: State, block: Block, number: int) -> None:
 
 def _take_values(state: State, block: Block) -> None:
     """Forget the last heights, and set the cycle's values as parameters unless they cannot be evaluated here."""
-    for name in _HEIGHTS:
+    for name in _HEIGHT_PARAMETERS:
         state.parameters.pop(name, None)
     for name, formula in _VALUE.findall("\n".join((block.body, *block.more))):
         value = evaluate(formula, state.parameters)
@@ -117,7 +117,7 @@ def _take_values(state: State, block: Block) -> None:
 def _end_height(state: State) -> float | None:
     """Return the tool axis's height at a drilling cycle's end, in millimeters: the larger clearance above Q203."""
     values = state.parameters
-    if not values.keys() >= _HEIGHTS:
+    if not values.keys() >= _HEIGHT_PARAMETERS:
         return None
     height = to_mm(values["Q203"] + max(values["Q200"], values["Q204"]), state.unit)
     return height + state.shift[state.plane.axes[2]]
@@ -133,7 +133,7 @@ def _call_block(state: State, block: Block) -> None:
     head = _POSITION.match(block.body)
     rest = block.after(head.end() if head else 0)
     if head and head[1] == "POS":
-        words = state.words(rest, COMMON_WORDS | frozenset(AXES))
+        words = state.words(rest, COMMON_WORDS | frozenset(AXIS_WORDS))
         _refuse_compensated(state, block)
         for index, value in enumerate(state.target(rest, words)):
             state.position[index] = value
@@ -149,9 +149,9 @@ def call(state: State, block: Block) -> None:
     """Call the cycle defined last, for CYCL CALL or M99."""
     if state.cycle is None:
         state.stop("CYCLE", "No cycle is defined before this call. Write its CYCL DEF before.", block)
-    if state.cycle == _PROGRAM:
+    if state.cycle == _PROGRAM_CALL_CYCLE:
         state.stop("BEYOND", "Cycle 12 runs another file. Copy its blocks in.", block)
-    if state.cycle in _CONTOUR:
+    if state.cycle in _CONTOUR_CYCLES:
         text = f"Cycle {state.cycle} mills a contour by itself, which is not supported. Nothing of it is judged."
         state.stop("BEYOND", text, block)
     _pass_over(state, block, state.cycle, _end_height(state))
@@ -172,14 +172,14 @@ def _pass_over(state: State, block: Block, number: int, height: float | None, *,
     state.waiting.flush()
     state.last = None
     severity, template = Severity.WARNING, NOT_JUDGED
-    if number in _DRILLING or number in _TAPPING or number in state.told_cycles:
-        severity, template = Severity.INFO, SKIPPED
+    if number in _DRILLING_CYCLES or number in _TAPPING_CYCLES or number in state.told_cycles:
+        severity, template = Severity.INFO, SKIPPED_TEXT
     state.told_cycles.add(number)
-    if number in _RETURNING and not pattern:
+    if number in _RETURNING_CYCLES and not pattern:
         state.tell(severity, "CYCLE", template.format(number, "it ends where it began"), block)
         return
     third = state.plane.axes[2]
-    if number in _DRILLING and height is not None:
+    if number in _DRILLING_CYCLES and height is not None:
         end = state.position.copy()
         end[third] = height
         if end != state.position:
@@ -187,9 +187,9 @@ def _pass_over(state: State, block: Block, number: int, height: float | None, *,
             state.push(ProgrammedStep(Role.DEPTH, element, 0.0, state.plane))
         state.position = end
         state.now_known({third})
-        state.tell(Severity.INFO, "CYCLE", SKIPPED.format(number, "it ends above its hole"), block)
+        state.tell(Severity.INFO, "CYCLE", SKIPPED_TEXT.format(number, "it ends above its hole"), block)
         return
-    unknown = {third} if number in _DRILLING and not pattern else {0, 1, 2}
+    unknown = {third} if number in _DRILLING_CYCLES and not pattern else {0, 1, 2}
     state.known -= unknown
     names = " and ".join("XYZ"[axis] for axis in sorted(unknown))
     text = template.format(number, f"cutcomp takes {names} from the next absolute words")

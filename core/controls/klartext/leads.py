@@ -10,14 +10,19 @@ from core.controls.compensation.elements import Element, offset_point
 from core.controls.klartext.center_path import ProgrammedStep, Role
 from core.controls.klartext.lead_curves import Lead, LeadShape, departure
 from core.controls.klartext.m_functions import functions
-from core.controls.klartext.path_functions import POLAR, check_pole_plane, polar_target, straight_element
+from core.controls.klartext.path_functions import POLAR_WORDS, check_pole_plane, polar_target, straight_element
 from core.controls.klartext.reader import Block
-from core.controls.klartext.state import AXES, COMMON_WORDS, State, Words
+from core.controls.klartext.state import AXIS_WORDS, COMMON_WORDS, State, Words
 from core.controls.moves import solid
 from core.finding import Severity
 
 _FORM: Final = re.compile(r"[ \t]*(P?)(LT|LN|CT|LCT)(?![A-Z])", re.ASCII)
-_NEEDED: Final = {LeadShape.LT: ("LEN",), LeadShape.LN: ("LEN",), LeadShape.CT: ("CCA", "R"), LeadShape.LCT: ("R",)}
+_NEEDED_WORDS: Final = {
+    LeadShape.LT: ("LEN",),
+    LeadShape.LN: ("LEN",),
+    LeadShape.CT: ("CCA", "R"),
+    LeadShape.LCT: ("R",),
+}
 
 
 def approach(state: State, block: Block) -> None:
@@ -66,8 +71,8 @@ def _read(state: State, block: Block, name: str) -> tuple[LeadShape, bool, Words
     shape, polar = LeadShape(lead[2]), bool(lead[1])
     if polar:
         check_pole_plane(state, block)
-    coordinates = POLAR if polar else frozenset(AXES)
-    return shape, polar, state.words(block.after(lead.end()), COMMON_WORDS | coordinates | set(_NEEDED[shape]))
+    coordinates = POLAR_WORDS if polar else frozenset(AXIS_WORDS)
+    return shape, polar, state.words(block.after(lead.end()), COMMON_WORDS | coordinates | set(_NEEDED_WORDS[shape]))
 
 
 def _check_side(state: State, block: Block, shape: LeadShape) -> None:
@@ -80,7 +85,7 @@ def _check_side(state: State, block: Block, shape: LeadShape) -> None:
 
 
 def _lead(state: State, block: Block, shape: LeadShape, words: Words) -> Lead:
-    for name in _NEEDED[shape]:
+    for name in _NEEDED_WORDS[shape]:
         if name not in words:
             state.stop("LEAD", f"{block.head} {shape} needs {name}. Write it with a number.", block)
     length = state.length(block, words, "LEN") if "LEN" in words else 0.0

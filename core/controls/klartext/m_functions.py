@@ -9,7 +9,7 @@ from typing import Final
 from core.controls.compensation.corner_rules import CornerRules
 from core.controls.klartext.center_path import KLARTEXT_CORNERS, M97, M98, FeedAt
 from core.controls.klartext.reader import Block
-from core.controls.klartext.state import AXES, State, Words
+from core.controls.klartext.state import AXIS_WORDS, State, Words
 from core.controls.program_text import quoted
 from core.finding import Severity
 
@@ -18,14 +18,16 @@ MAX_LOOK_AHEAD: Final = 99
 
 M120_SKIPS: Final = "cutcomp assumes M120 skips what lies between two crossings of the path within LA blocks."
 
-_FEEDS: Final[Mapping[int, FeedAt]] = MappingProxyType({109: FeedAt.EDGE, 110: FeedAt.INSIDE_EDGE, 111: FeedAt.CENTER})
-_CORNERS: Final[Mapping[int, CornerRules]] = MappingProxyType({97: M97, 98: M98})
-_SILENT: Final = frozenset((0, 1, 3, 4, 5, 6, 7, 8, 9, 13, 14))
-_MOVING: Final = frozenset((89, 91, 92, 114, 128, 130, 140, 144))
+_FEED_FUNCTIONS: Final[Mapping[int, FeedAt]] = MappingProxyType(
+    {109: FeedAt.EDGE, 110: FeedAt.INSIDE_EDGE, 111: FeedAt.CENTER}
+)
+_CORNER_FUNCTIONS: Final[Mapping[int, CornerRules]] = MappingProxyType({97: M97, 98: M98})
+_IGNORED_FUNCTIONS: Final = frozenset((0, 1, 3, 4, 5, 6, 7, 8, 9, 13, 14))
+_MOVING_FUNCTIONS: Final = frozenset((89, 91, 92, 114, 128, 130, 140, 144))
 _CYCLE_CALL: Final = 99
-_MACHINE: Final = frozenset(("M91", "M92", "M140"))
-_BELONGS: Final[Mapping[str, str]] = MappingProxyType({"LA": "M120", "MB": "M140", "MAX": "M140"})
-_DIFFERENT: Final[Mapping[int, str]] = MappingProxyType(
+_MACHINE_POSITION_FUNCTIONS: Final = frozenset(("M91", "M92", "M140"))
+_FUNCTION_OF_WORD: Final[Mapping[str, str]] = MappingProxyType({"LA": "M120", "MB": "M140", "MAX": "M140"})
+_DIFFERENT_ON_CONTROL: Final[Mapping[int, str]] = MappingProxyType(
     {
         90: "the control rounds corners that run without compensation",
         103: "the control lowers the feed of plunging moves",
@@ -42,9 +44,9 @@ def functions(state: State, block: Block, words: Words) -> CornerRules:
     for name in words:
         if name == "M120":
             _look_ahead(state, block, words)
-        elif name[0] == "M" and name not in _BELONGS:
+        elif name[0] == "M" and name not in _FUNCTION_OF_WORD:
             corner = _function(state, block, name, corner)
-    for name, owner in _BELONGS.items():
+    for name, owner in _FUNCTION_OF_WORD.items():
         if name in words and owner not in words:
             state.stop("WORD", f"{name} belongs to {owner}. Write it with {owner}, or leave it out.", block, name)
     return corner
@@ -58,16 +60,16 @@ def _function(state: State, block: Block, name: str, corner: CornerRules) -> Cor
         state.ended = True
     elif code == _CYCLE_CALL:
         state.cycle_due = True
-    elif code in _FEEDS:
-        state.feed_at = _FEEDS[code]
-    elif code in _CORNERS:
-        return _CORNERS[code]
-    elif code in _MOVING:
+    elif code in _FEED_FUNCTIONS:
+        state.feed_at = _FEED_FUNCTIONS[code]
+    elif code in _CORNER_FUNCTIONS:
+        return _CORNER_FUNCTIONS[code]
+    elif code in _MOVING_FUNCTIONS:
         text = f"{quoted(name)} moves the axes, which is not supported."
         state.stop("BEYOND", text, block, name)
-    elif code in _DIFFERENT:
-        state.tell(Severity.WARNING, "M", f"{name} is not supported: {_DIFFERENT[code]}.", block, name)
-    elif code not in _SILENT:
+    elif code in _DIFFERENT_ON_CONTROL:
+        state.tell(Severity.WARNING, "M", f"{name} is not supported: {_DIFFERENT_ON_CONTROL[code]}.", block, name)
+    elif code not in _IGNORED_FUNCTIONS:
         state.tell(Severity.INFO, "M", f"cutcomp assumes {quoted(name)} moves nothing.", block, name)
     return corner
 
@@ -97,9 +99,9 @@ def only_functions(state: State, block: Block) -> None:
 
 def leaves_workpiece(state: State, block: Block, words: Words) -> bool:
     """True if uncompensated M91, M92 or M140 sends axes where only the machine knows; the move is then left out."""
-    if _MACHINE.isdisjoint(words) or state.applied or state.side:
+    if _MACHINE_POSITION_FUNCTIONS.isdisjoint(words) or state.applied or state.side:
         return False
-    state.lose({AXES[name][0] for name in words.keys() & AXES.keys()})
+    state.lose({AXIS_WORDS[name][0] for name in words.keys() & AXIS_WORDS.keys()})
     if "M140" in words:
         state.lose({state.plane.axes[2]})
     state.waiting.flush()

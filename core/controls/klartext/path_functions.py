@@ -12,13 +12,13 @@ from core.controls.klartext.center_path import ProgrammedStep, Role
 from core.controls.klartext.corner_rounding import NO_LEAD, PendingCorner
 from core.controls.klartext.m_functions import functions, leaves_workpiece
 from core.controls.klartext.reader import Block
-from core.controls.klartext.state import AXES, COMMON_WORDS, SIDES, State, Words
+from core.controls.klartext.state import AXIS_WORDS, COMMON_WORDS, SIDE_WORDS, State, Words
 from core.controls.moves import Plane, solid, without_rounding
 from core.finding import Severity
 from core.geometry.piece import Point
 from core.tolerance import JOINED
 
-POLAR: Final = frozenset(("PR", "PA", "IPR", "IPA", *AXES))
+POLAR_WORDS: Final = frozenset(("PR", "PA", "IPR", "IPA", *AXIS_WORDS))
 """The words of a polar point and of the axes; of the axes only the one across the plane of CC may stand with PR, PA."""
 
 KLARTEXT_ARC_TOLERANCE: Final = ArcTolerance(inch=0.016 / 25.4, mm=0.016, share=0.0, interpreted=False)
@@ -30,14 +30,14 @@ MAX_HELIX: Final = 5400.0
 NOT_YET: Final = "cutcomp assumes RL, RR or R0 with the tool axis alone acts in the next line of the working plane."
 ONE_STRAIGHT: Final = "The end point lies straight ahead or back: no tangent arc leads there. Write L."
 
-_LINE: Final = COMMON_WORDS | frozenset(AXES)
-_POLAR_LINE: Final = COMMON_WORDS | POLAR
-_CORNER: Final = frozenset(("R", "F", "LEN"))
+_LINE_WORDS: Final = COMMON_WORDS | frozenset(AXIS_WORDS)
+_POLAR_LINE: Final = COMMON_WORDS | POLAR_WORDS
+_CORNER_WORDS: Final = frozenset(("R", "F", "LEN"))
 
 
 def line(state: State, block: Block) -> None:
     """L: a straight line; a new RL, RR or R0 in it applies or cancels compensation."""
-    words = state.words(block, _LINE)
+    words = state.words(block, _LINE_WORDS)
     if "FMAX" in words or "MB" in words:
         state.chosen_side(block, words)
         if leaves_workpiece(state, block, words):
@@ -64,7 +64,7 @@ def _line_to(state: State, block: Block, words: Words, end: list[float]) -> None
     if element.start == element.end:
         state.last = None
         state.push(ProgrammedStep(Role.DEPTH, element, 0.0, state.plane))
-        if state.side != state.applied and SIDES.keys() & words.keys():
+        if state.side != state.applied and SIDE_WORDS.keys() & words.keys():
             state.tell(Severity.INFO, "INTERPRETED", NOT_YET, block)
     elif state.side == state.applied:
         role = Role.CONTOUR if state.side else Role.FREE
@@ -96,7 +96,7 @@ def pole(state: State, block: Block) -> None:
 
     Without words the pole is the tool's position, in the working plane.
     """
-    words, known, unknown = state.words(block, frozenset(AXES)), set(state.known), set(state.at_machine_place)
+    words, known, unknown = state.words(block, frozenset(AXIS_WORDS)), set(state.known), set(state.at_machine_place)
     target = state.target(block, words)
     state.known, state.at_machine_place = known, unknown
     plane = _plane_of(words) if words else state.plane
@@ -107,7 +107,7 @@ def pole(state: State, block: Block) -> None:
 
 def _plane_of(words: Words) -> Plane | None:
     """Return the plane of the two axes that a block names; None if they are not two."""
-    axes = {AXES[name][0] for name in words if name in AXES}
+    axes = {AXIS_WORDS[name][0] for name in words if name in AXIS_WORDS}
     return next((plane for plane in Plane if len(axes) == 2 and axes == set(plane.axes[:2])), None)
 
 
@@ -166,7 +166,7 @@ def _polar_value(state: State, block: Block, words: Words, name: str, now: float
 
 def circle(state: State, block: Block) -> None:
     """C: an arc about the pole to an end point; an end point at the start makes a full circle."""
-    words = state.words(block, _LINE | {"DR"})
+    words = state.words(block, _LINE_WORDS | {"DR"})
     turn = _direction(state, block, words)
     _about_pole(state, block, words, state.target(block, words), turn)
 
@@ -187,7 +187,7 @@ def polar_circle(state: State, block: Block) -> None:
 
 def radius_arc(state: State, block: Block) -> None:
     """CR: an arc by its radius; R above 0 makes at most half a circle, R below 0 at least half."""
-    words = state.words(block, _LINE | {"DR", "R"})
+    words = state.words(block, _LINE_WORDS | {"DR", "R"})
     turn = _direction(state, block, words)
     if "R" not in words:
         state.stop("ARC", "CR needs a radius. Write R+ or R- with a number.", block)
@@ -203,7 +203,7 @@ def radius_arc(state: State, block: Block) -> None:
 
 def _radius_plane(state: State, block: Block, words: Words) -> Plane:
     """Return the plane of a CR block: that of its two axes, or the working plane if it names one axis of that."""
-    axes = {AXES[name][0] for name in words if name in AXES}
+    axes = {AXIS_WORDS[name][0] for name in words if name in AXIS_WORDS}
     plane = _plane_of(words)
     one_of_two = axes <= set(state.plane.axes[:2]) and (state.pole is None or state.pole_plane is state.plane)
     if plane is None and (len(axes) > 2 or not one_of_two):
@@ -213,7 +213,7 @@ def _radius_plane(state: State, block: Block, words: Words) -> Plane:
 
 def tangent_arc(state: State, block: Block) -> None:
     """CT: an arc tangent to the contour element before it."""
-    words = state.words(block, _LINE)
+    words = state.words(block, _LINE_WORDS)
     _tangent_to(state, block, words, state.target(block, words))
 
 
@@ -326,7 +326,7 @@ def corner(state: State, block: Block) -> None:
     start, body = block.start, block.body.lstrip()
     if body and body[0] in "+-.0123456789Q":  # the size has no name, as in CHF 5
         block = block._replace(body=f"LEN{body}", column=block.column + len(block.body) - len(body) - 3)
-    words = state.words(block, _CORNER)
+    words = state.words(block, _CORNER_WORDS)
     name = next((word for word in ("R", "LEN") if word in words), "")
     if not name:
         state.stop("CORNER", f"{block.head} needs its size. Write RND R5 or CHF 5.", block)

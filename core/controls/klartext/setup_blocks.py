@@ -33,10 +33,10 @@ _UNSUPPORTED: Final = (
 _SPATIAL: Final = re.compile(
     r"\s*SPATIAL\s+SPA\s*([-+.,\dQLR]+)\s+SPB\s*([-+.,\dQLR]+)\s+SPC\s*([-+.,\dQLR]+)\s+STAY\b", re.ASCII
 )
-_PLANES: Final = {"Z": Plane.XY, "X": Plane.YZ, "Y": Plane.ZX}
-_DEF: Final = frozenset(("L", "R", "R2", "DL", "DR", "DR2"))
-_CALL: Final = frozenset(("S", "F", "DL", "DR", "DR2", "X", "Y", "Z"))
-_SHIFTING: Final = {f"{step}{name}": axis for step in ("", "I") for axis, name in enumerate("XYZ")}
+_PLANE_OF_TOOL_AXIS: Final = {"Z": Plane.XY, "X": Plane.YZ, "Y": Plane.ZX}
+_TOOL_DEF_WORDS: Final = frozenset(("L", "R", "R2", "DL", "DR", "DR2"))
+_TOOL_CALL_WORDS: Final = frozenset(("S", "F", "DL", "DR", "DR2", "X", "Y", "Z"))
+_SHIFT_WORDS: Final = {f"{step}{name}": axis for step in ("", "I") for axis, name in enumerate("XYZ")}
 
 
 def begin(state: State, block: Block) -> None:
@@ -126,9 +126,9 @@ def tool(state: State, block: Block) -> None:
             state.stop("TOOL", f"{number[4]} is no tool number. Give it a whole number.", block, number[4])
         name = str(int(value))
     if number[1] == "DEF":
-        _define(state, rest, name, state.words(rest, _DEF, TOOL_WORD))
+        _define(state, rest, name, state.words(rest, _TOOL_DEF_WORDS, TOOL_WORD))
     else:
-        _call(state, rest, name, state.words(rest, _CALL, TOOL_WORD))
+        _call(state, rest, name, state.words(rest, _TOOL_CALL_WORDS, TOOL_WORD))
 
 
 def _define(state: State, block: Block, name: str, words: Words) -> None:
@@ -143,7 +143,7 @@ def _define(state: State, block: Block, name: str, words: Words) -> None:
 def _call(state: State, block: Block, name: str, words: Words) -> None:
     if "F" in words:
         state.feed = state.tool_feed = state.length(block, words, "F")
-    if not name and not words.keys() & ({"DR"} | _PLANES.keys()):
+    if not name and not words.keys() & ({"DR"} | _PLANE_OF_TOOL_AXIS.keys()):
         return
     if state.applied and not state.side:
         text = "cutcomp assumes that R0 with the tool axis alone cancels compensation where the tool is changed."
@@ -155,11 +155,11 @@ def _call(state: State, block: Block, name: str, words: Words) -> None:
         text = "The tool cannot be changed under compensation. Cancel it with R0 or DEP first."
         state.stop("TOOL", text, block)
     state.waiting.flush()
-    axes = sorted(words.keys() & _PLANES.keys())
+    axes = sorted(words.keys() & _PLANE_OF_TOOL_AXIS.keys())
     if len(axes) > 1:
         state.stop("TWICE", f"{axes[0]} and {axes[1]} are both tool axes. Keep one.", block, axes[1])
-    if axes and _PLANES[axes[0]] is not state.plane:
-        state.plane, state.pole = _PLANES[axes[0]], None
+    if axes and _PLANE_OF_TOOL_AXIS[axes[0]] is not state.plane:
+        state.plane, state.pole = _PLANE_OF_TOOL_AXIS[axes[0]], None
     state.tool = name or state.tool
     state.last = None
     delta = state.length(block, words, "DR") if "DR" in words else 0.0
@@ -189,10 +189,10 @@ def _take_radius(state: State, block: Block, delta: float) -> None:
 
 def shift(state: State, block: Block) -> None:
     """Shift the datum: absolute words count from the unshifted datum, incremental ones from the last shift."""
-    words = state.words(block, frozenset(_SHIFTING))
+    words = state.words(block, frozenset(_SHIFT_WORDS))
     if not words:
         state.stop("WORD", "A datum shift needs an axis and a value. Write X+10.", block)
-    for name, axis in _SHIFTING.items():
+    for name, axis in _SHIFT_WORDS.items():
         if name in words:
             value = state.length(block, words, name)
             state.shift[axis] = state.shift[axis] + value if name[0] == "I" else value

@@ -22,18 +22,18 @@ from core.controls.moves import Plane
 from core.controls.program_text import quoted
 from core.finding import Severity
 from core.geometry.piece import Point
-from core.tolerance import LARGEST
+from core.tolerance import LARGEST_COORDINATE
 from core.units import Unit, to_mm
 
-AXES: Final[Mapping[str, tuple[int, bool]]] = MappingProxyType(
+AXIS_WORDS: Final[Mapping[str, tuple[int, bool]]] = MappingProxyType(
     {name: (index, False) for index, name in enumerate("XYZ")}
     | {f"I{name}": (index, True) for index, name in enumerate("XYZ")}
 )
 """Axis words: the index of the axis, and True if the value counts from the last programmed position."""
 
-SIDES: Final[Mapping[str, int]] = MappingProxyType({"R0": 0, "RL": 1, "RR": -1})
+SIDE_WORDS: Final[Mapping[str, int]] = MappingProxyType({"R0": 0, "RL": 1, "RR": -1})
 COMMON_WORDS: Final = frozenset(("R0", "RL", "RR", "F", "FMAX", "FAUTO", "M", "LA", "MB", "MAX"))
-FEEDS: Final = frozenset(("F", "FMAX", "FAUTO"))
+FEED_WORDS: Final = frozenset(("F", "FMAX", "FAUTO"))
 ROTARY_AXES: Final = frozenset("ABC")
 OTHER_AXES: Final = frozenset(f"{step}{name}" for step in ("", "I") for name in "ABCUVW")
 
@@ -143,7 +143,7 @@ class State:
             if not raw or raw in "+-":
                 self.stop("NUMBER", f"{name} needs a number after it.", block, name)
             value = self.value(raw, block, name)
-        if not -LARGEST < value < LARGEST:
+        if not -LARGEST_COORDINATE < value < LARGEST_COORDINATE:
             self.stop("NUMBER", f"The number of {name} is too large for any machine.", block, name)
         return value
 
@@ -170,11 +170,11 @@ class State:
         """Return the position that the block's axis words lead to."""
         position, self.lost = self.position.copy(), self.plane.axes[2] in self.at_machine_place
         for name in words:
-            if name in AXES:
-                axis, relative = AXES[name]
+            if name in AXIS_WORDS:
+                axis, relative = AXIS_WORDS[name]
                 if not relative:
                     self.now_known({axis})
-                elif AXES[name[1:]][0] == axis and name[1:] in words:
+                elif AXIS_WORDS[name[1:]][0] == axis and name[1:] in words:
                     self.stop("TWICE", f"{name} and {name[1:]} are in one block. Keep one.", block, name)
                 base = self.position[axis] if relative else self.shift[axis]
                 position[axis] = base + self.length(block, words, name)
@@ -192,12 +192,12 @@ class State:
 
     def chosen_side(self, block: Block, words: Words) -> None:
         """Take up the block's R0, RL or RR."""
-        if SIDES.keys().isdisjoint(words):
+        if SIDE_WORDS.keys().isdisjoint(words):
             return
-        names = [name for name in SIDES if name in words]
+        names = [name for name in SIDE_WORDS if name in words]
         if len(names) > 1:
             self.stop("TWICE", f"{names[0]} and {names[1]} are in one block. Keep one.", block, names[1])
-        side = SIDES[names[0]]
+        side = SIDE_WORDS[names[0]]
         if side and side == -(self.applied or self.side):
             text = "The side changes without R0 between. Cancel in an L block with R0 first."
             self.stop("HE1", text, block, names[0])
@@ -205,9 +205,9 @@ class State:
 
     def chosen_feed(self, block: Block, words: Words) -> tuple[bool, float]:
         """Return rapid and feed of the block: FMAX applies to this block alone, F from here on."""
-        if FEEDS.isdisjoint(words):
+        if FEED_WORDS.isdisjoint(words):
             return False, self.feed
-        names = [name for name in words if name in FEEDS]
+        names = [name for name in words if name in FEED_WORDS]
         if len(names) > 1:
             self.stop("TWICE", f"{names[0]} and {names[1]} are in one block. Keep one.", block, names[1])
         if "F" in words:

@@ -15,19 +15,19 @@ from core.controls.compensation.corner_rules import Outside
 from core.controls.compensation.elements import Element, line_element
 from core.controls.control_run import Log
 from core.controls.iso.arcs import IN_PLANE
-from core.controls.iso.dialect import CYCLES_APART, PLANES, CodeAction, Dialect, codes
+from core.controls.iso.dialect import CYCLES_APART, PLANE_OF_CODE, CodeAction, Dialect, codes
 from core.controls.iso.expressions import ParameterStore
 from core.controls.iso.flow import MakeControl
 from core.controls.iso.machine import NON_MODAL_ACTIONS, Control
 from core.controls.iso.macro_b_machine import HAAS_SYSTEMS, MacroMachine
-from core.controls.iso.reader import SWITCHES, Block, Syntax, whole_word
+from core.controls.iso.reader import COMPENSATION_CODES, Block, Syntax, whole_word
 from core.controls.makers.fanuc_vectors import Alarms, VectorQueue, VectorRules, vector_meeting
 from core.controls.moves import flat
 from core.finding import Severity
 from core.geometry.piece import Point, Side
 from core.units import Unit
 
-GROUPS: Final = (
+CODE_GROUPS: Final = (
     *CYCLES_APART,
     ("cycle", CodeAction.CYCLE, (730, 740, 760)),
     ("length", CodeAction.MODE, (440,)),
@@ -56,7 +56,7 @@ GROUPS: Final = (
 )
 """Codes in addition to those that all word-address controls share."""
 
-CODES: Final = codes(*GROUPS)
+CODES: Final = codes(*CODE_GROUPS)
 
 RULE_NAMES: Final[Mapping[str, str]] = MappingProxyType(
     {
@@ -106,12 +106,12 @@ SHARED_OFFSETS: Final = (20, 30, 40, 50, 60, 100)
 
 _PLANE_LETTERS: Final = ("XY", "ZX", "YZ")
 _NEW_ORIGIN: Final = frozenset((520, 920, 540, 541, 550, 560, 570, 580, 590, 1540, *HAAS_SYSTEMS))
-_HOME: Final = frozenset((280, 300))
-_TO_MACHINE: Final = _HOME | {530}
+_HOME_CODES: Final = frozenset((280, 300))
+_TO_MACHINE: Final = _HOME_CODES | {530}
 _UNBUFFERED_G: Final = frozenset((280, 300, 310, 530))
 _UNBUFFERED_M: Final = frozenset((0, 10, 20, 300))
-_CALLS: Final = frozenset((980, 990))
-_TRANSFORMS: Final = frozenset((680, 690, 510, 500, 511, 501))
+_CALL_CODES: Final = frozenset((980, 990))
+_TRANSFORM_CODES: Final = frozenset((680, 690, 510, 500, 511, 501))
 _ARC_MODES: Final = (20, 30)
 
 
@@ -163,7 +163,7 @@ class Fanuc(VectorQueue, Control):
         """Stop the run at codes that compensation does not allow."""
         for code in block.g:
             column = block.column("G", code)
-            if code in PLANES and PLANES[code] is not self.plane:
+            if code in PLANE_OF_CODE and PLANE_OF_CODE[code] is not self.plane:
                 text = "The plane cannot change under compensation. Write G40 before it."
                 self.log.stop("PS0037", text, block.line, column)
             if code == 310:
@@ -171,7 +171,7 @@ class Fanuc(VectorQueue, Control):
             if code in (450, 460, 470, 480):
                 text = "G45 to G48 do not go with compensation. Write G40 before them."
                 self.log.stop("PS0042", text, block.line, column)
-            if code in _TRANSFORMS and code != 500 and not (code in (690, 501) and not self.machine.transform):
+            if code in _TRANSFORM_CODES and code != 500 and not (code in (690, 501) and not self.machine.transform):
                 text = f"cutcomp does not follow G{code / 10:g} under compensation. Write G40 before it."
                 self.log.stop("FN-TRANSFORM", text, block.line, column)
 
@@ -179,7 +179,7 @@ class Fanuc(VectorQueue, Control):
         self.number = number = whole_word(block, "D", self.log, "NUMBER", "D is an offset number, a whole number.")
         if self.active and number == 0:
             self._cancel_in(block, None)
-        elif self.side is not None or not SWITCHES.isdisjoint(block.g):
+        elif self.side is not None or not COMPENSATION_CODES.isdisjoint(block.g):
             self.radius = self._offset_value(block.line, block.column("D"))
             if self.active and self.side is not None:
                 self.coming = self.radius * self.side.sign
@@ -302,7 +302,7 @@ class Fanuc(VectorQueue, Control):
             self.straight(element, self.here)
             return
         # on the way to the intermediate point of G28 the vector is dropped (5003#2 = 0)
-        homing = self.block is not None and not _HOME.isdisjoint(self.block.g)
+        homing = self.block is not None and not _HOME_CODES.isdisjoint(self.block.g)
         if self.side is None or not element.moves or homing:
             super().travel(element)
             return
@@ -356,7 +356,7 @@ class Fanuc(VectorQueue, Control):
             return
         if not block.g and not block.m and {"N", "O"}.issuperset(block.words):
             return
-        self.calls_counted = not _CALLS.isdisjoint(block.m) or (self.calls_counted and self.motionless > 0)
+        self.calls_counted = not _CALL_CODES.isdisjoint(block.m) or (self.calls_counted and self.motionless > 0)
         self.motionless += 1
         if self.too_many or self.motionless > self.vector_rules.blocks_read - 2:
             self.after_too_many(block)
@@ -408,7 +408,7 @@ class Fanuc(VectorQueue, Control):
         self.log.tell(Severity.WARNING, "FN-OPEN", text, line, 1)
 
 
-RULES: Final[Mapping[str, VectorRules]] = MappingProxyType(
+VECTOR_RULES: Final[Mapping[str, VectorRules]] = MappingProxyType(
     {
         f"{kind}{corners}": VectorRules(type_a=kind != "b", at_once=kind == "c", outside=outside)
         for kind in ("a", "b", "c")
@@ -418,6 +418,6 @@ RULES: Final[Mapping[str, VectorRules]] = MappingProxyType(
 """The start-up type of each variant, and how it rounds sharp outside corners."""
 
 VARIANTS: Final[Mapping[str, MakeControl]] = MappingProxyType(
-    {name: partial(Fanuc, rules=rules) for name, rules in RULES.items()}
+    {name: partial(Fanuc, rules=rules) for name, rules in VECTOR_RULES.items()}
 )
 """The variants, the default first."""

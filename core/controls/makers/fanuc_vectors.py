@@ -42,7 +42,7 @@ from core.controls.moves import solid
 from core.finding import Severity
 from core.geometry.piece import Point
 
-TANGENT: Final = radians(0.05)
+MAX_TANGENT_ANGLE: Final = radians(0.05)
 """Inside corners under this angle whose offsets do not meet count as tangent: centers are rounded to three digits."""
 
 POINT_ARC: Final = 1e-6
@@ -211,7 +211,7 @@ class VectorQueue(Recorder):
         return self._without_meeting(first, second, offset) if joint.missed else joint
 
     def _without_meeting(self, first: Element, second: Element, offset: float) -> Joint:
-        if inward_turn(first, second, offset) >= TANGENT:
+        if inward_turn(first, second, offset) >= MAX_TANGENT_ANGLE:
             text = "The offsets of this inside corner do not meet. Use a smaller cutter or open the corner."
             self.log.stop(self.alarms.no_meeting, text, second.line, 1, at=first.end)
         return Joint(offset_end(first, offset), offset_start(second, offset))

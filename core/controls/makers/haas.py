@@ -27,7 +27,7 @@ DIALECT: Final[Dialect] = replace(
     fanuc.DIALECT,
     cycle_r_needed=False,
     codes=codes(
-        *fanuc.GROUPS,
+        *fanuc.CODE_GROUPS,
         ("system", CodeAction.SYSTEM, (1540, *HAAS_SYSTEMS)),
         ("once", CodeAction.MODE, (1030, 1870)),
         ("once", CodeAction.UNSUPPORTED, (120, 130, 350, 360, 700, 710, 720, 1000, 1010, 1070, 1360, 1410, 1430)),

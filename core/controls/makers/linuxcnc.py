@@ -17,11 +17,11 @@ from core.controls.control_run import Log
 from core.controls.control_tools import ToolTable, missing_tool
 from core.controls.iso.arcs import ArcTolerance
 from core.controls.iso.code_support import OFFSETS_ANYWHERE, only_on
-from core.controls.iso.dialect import PLANES, CodeAction, Dialect, codes
+from core.controls.iso.dialect import PLANE_OF_CODE, CodeAction, Dialect, codes
 from core.controls.iso.expressions import ParameterStore
 from core.controls.iso.machine import Control
 from core.controls.iso.modal_state import system_code
-from core.controls.iso.reader import SWITCHES, Block, Syntax, whole, whole_word
+from core.controls.iso.reader import COMPENSATION_CODES, Block, Syntax, whole, whole_word
 from core.controls.moves import Plane, flat, solid
 from core.finding import Severity
 from core.geometry.piece import Side
@@ -66,7 +66,7 @@ DIALECT: Final = Dialect(
     rounding_moves=True,
 )
 
-REFUSED: Final = {
+REFUSED_UNDER_COMPENSATION: Final = {
     **dict.fromkeys((520, 920), ("N-OFFSETS", "changes the origin")),
     **dict.fromkeys((540, 550, 560, 570, 580, 590, 591, 592, 593), ("N-OFFSETS", "changes the work offset")),
     **dict.fromkeys((280, 300), ("N-HOME", "goes to the reference point")),
@@ -105,12 +105,12 @@ class LinuxCnc(OneMoveQueue, Control):
             # the run stops at the code itself
             return
         words = block.words
-        if "D" in words and SWITCHES.isdisjoint(block.g) and 960 not in block.g:
+        if "D" in words and COMPENSATION_CODES.isdisjoint(block.g) and 960 not in block.g:
             text = f"D needs G41, G42, G41.1 or G42.1 in its block. In any block {only_on(OFFSETS_ANYWHERE)}"
             self.log.stop("N-DALONE", text, block.line, block.column("D"))
         if not _OTHERS.isdisjoint(words) or block.m or len(block.g) > 1 or 40 in block.g:
             self._other_words(block)
-        if not _CENTERS.isdisjoint(words):
+        if not _ARC_CENTER_LETTERS.isdisjoint(words):
             self._arc_words(block)
         for code in block.g:
             if code // 10 == 38 and code != 380:
@@ -126,7 +126,7 @@ class LinuxCnc(OneMoveQueue, Control):
 
     def _take_diameters(self, block: Block) -> None:
         """G7 and G8: under G7 every X is a diameter, also in the block of G7."""
-        if not _LATHE.isdisjoint(block.g):
+        if not _LATHE_CODES.isdisjoint(block.g):
             self.diameters = 70 in block.g
         if self.diameters and "X" in block.words:
             block.words["X"] /= 2.0
@@ -154,7 +154,7 @@ class LinuxCnc(OneMoveQueue, Control):
                 self.log.stop(rule, text, block.line, column)
             if code == _SET_TOOL:
                 self._set_tool(block)
-            if code in _RESTORES:
+            if code in _RESTORE_CODES:
                 text = f"cutcomp does not restore what M{code / 10:g} restores. Write the codes themselves."
                 self.log.stop("BEYOND", text, block.line, column)
             if code >= 1000:
@@ -186,7 +186,7 @@ class LinuxCnc(OneMoveQueue, Control):
     def _alone(self, block: Block) -> None:
         """Check that calls and numbers of subprograms stand alone, and that only one G code takes the axis words."""
         if 980 in block.m or "O" in block.words:
-            if block.g or len(block.m) > 1 or not _CALL.issuperset(block.words):
+            if block.g or len(block.m) > 1 or not _CALL_LETTERS.issuperset(block.words):
                 text = "A call or a number of a subprogram must be alone in its block. Write the rest in another block."
                 self.log.stop("SUBPROGRAM", text, block.line, block.column("OM"))
         elif not _TAKES_AXES.isdisjoint(block.g) and any(code <= 30 and code != 40 for code in block.g):
@@ -216,22 +216,22 @@ class LinuxCnc(OneMoveQueue, Control):
 
     def _arc_words(self, block: Block) -> None:
         """Stop the run at I, J, K or R in a straight move, unless G10, G64 or M19 uses them."""
-        if self._motion(block) in (0, 10) and not {100, 640}.intersection(block.g) and _ORIENT not in block.m:
+        if self._motion(block) in (0, 10) and not {100, 640}.intersection(block.g) and _ORIENT_SPINDLE not in block.m:
             column = block.column("IJKR")
             text = "I, J, K and R go with G2 and G3 only. Remove them."
             self.log.stop("N-WORDALONE", text, block.line, column)
 
     def takes_effect(self, code: int, block: Block) -> bool:
         """Stop the run at what compensation refuses; return False for G92.1 to G92.3, which then do nothing."""
-        if code in _UNSHIFTS:
+        if code in _SHIFT_CANCEL_CODES:
             text = f"The control ignores G{code / 10:g} under compensation; write G40 before it."
             self.log.tell(Severity.WARNING, "N-OFFSETS", text, block.line, block.column("G", code))
             return False
-        if code in REFUSED or (code == _G10 and self._sets_system_in_force(block)):
-            rule, what = REFUSED.get(code, ("N-OFFSETS", "changes the origin"))
+        if code in REFUSED_UNDER_COMPENSATION or (code == _G10 and self._sets_system_in_force(block)):
+            rule, what = REFUSED_UNDER_COMPENSATION.get(code, ("N-OFFSETS", "changes the origin"))
             text = f"G{code / 10:g} {what}, which is not allowed under compensation; write G40 before it."
             self.log.stop(rule, text, block.line, block.column("G", code))
-        if code in PLANES and PLANES[code] is not self.machine.plane:
+        if code in PLANE_OF_CODE and PLANE_OF_CODE[code] is not self.machine.plane:
             text = "The plane cannot be changed under compensation; write G40 before it."
             self.log.stop("N-PLANE", text, block.line, block.column("G", code))
         return True
@@ -301,20 +301,22 @@ class LinuxCnc(OneMoveQueue, Control):
 
 _G80: Final = 800
 _G10: Final = 100
-_ORIENT: Final = 190
+_ORIENT_SPINDLE: Final = 190
 _SET_TOOL: Final = 610
-_LATHE: Final = frozenset((70, 80))
-_UNSHIFTS: Final = frozenset((921, 922, 923))
-_RESTORES: Final = frozenset((720, 730))
+_LATHE_CODES: Final = frozenset((70, 80))
+_SHIFT_CANCEL_CODES: Final = frozenset((921, 922, 923))
+_RESTORE_CODES: Final = frozenset((720, 730))
 _USER_M: Final = tuple(f"M{code}" for code in range(1000, 2000, 10))
 _SWITCHED: Final = tuple(f"M{code}" for code in (500, 510, 520, 530, 620, 630, 640, 650, 660))
-_CYCLES: Final = tuple(f"G{code}" for code in (730, *range(810, 900, 10)))
+_CYCLE_CODES: Final = tuple(f"G{code}" for code in (730, *range(810, 900, 10)))
 
 WORDS_NEED_CODES: Final[Mapping[str, frozenset[str]]] = MappingProxyType(
     {
-        "L": frozenset(("G100", "G410", "G411", "G420", "G421", "M660", "M980", *_CYCLES)),
-        "P": frozenset(("G20", "G30", "G40", "G100", "G640", "M190", "M980", "G740", *_CYCLES, *_SWITCHED, *_USER_M)),
-        "Q": frozenset(("G100", "G640", "M190", "M610", "M660", "M670", "M680", *_CYCLES, *_USER_M)),
+        "L": frozenset(("G100", "G410", "G411", "G420", "G421", "M660", "M980", *_CYCLE_CODES)),
+        "P": frozenset(
+            ("G20", "G30", "G40", "G100", "G640", "M190", "M980", "G740", *_CYCLE_CODES, *_SWITCHED, *_USER_M)
+        ),
+        "Q": frozenset(("G100", "G640", "M190", "M610", "M660", "M670", "M680", *_CYCLE_CODES, *_USER_M)),
         "H": frozenset(("G430", "G432", "G760")),
         "E": frozenset(("G700", "G760", "M660", "M670", "M680")),
     }
@@ -322,7 +324,7 @@ WORDS_NEED_CODES: Final[Mapping[str, frozenset[str]]] = MappingProxyType(
 """Words that a block may have only together with one of these codes."""
 
 _OTHERS: Final = frozenset((*WORDS_NEED_CODES, "O"))
-_CALL: Final = frozenset("OPLN")
+_CALL_LETTERS: Final = frozenset("OPLN")
 _TAKES_AXES: Final = frozenset((100, 280, 300, 520, 920))
 _KNOWN_M: Final = frozenset(
     10 * code for code in (*range(10), 19, 30, *range(48, 54), *range(60, 69), *range(70, 74), 98, 99, *range(100, 200))
@@ -341,4 +343,4 @@ _M_GROUPS: Final = tuple(
     )
 )
 """Stops, spindle, tool, coolant, overrides, outputs, user codes: the interpreter refuses two of a group in a block."""
-_CENTERS: Final = frozenset("IJKR")
+_ARC_CENTER_LETTERS: Final = frozenset("IJKR")

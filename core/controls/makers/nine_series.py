@@ -29,10 +29,10 @@ from core.controls.compensation.element_queue import ElementQueue
 from core.controls.compensation.elements import Element, fits, offset_end, offset_radius, offset_start
 from core.controls.control_run import Log
 from core.controls.iso.arcs import IN_PLANE
-from core.controls.iso.dialect import CYCLES_APART, PLANES, CodeAction, Dialect, codes
+from core.controls.iso.dialect import CYCLES_APART, PLANE_OF_CODE, CodeAction, Dialect, codes
 from core.controls.iso.flow import MakeControl
 from core.controls.iso.machine import Control
-from core.controls.iso.reader import SWITCHES, Block, Syntax, whole_word
+from core.controls.iso.reader import COMPENSATION_CODES, Block, Syntax, whole_word
 from core.finding import Severity
 from core.geometry.piece import Point, Side
 from core.units import Unit
@@ -60,14 +60,14 @@ DIALECT: Final = Dialect(
     d_anywhere=True,
 )
 
-TANGENT: Final = radians(0.05)
+MAX_TANGENT_ANGLE: Final = radians(0.05)
 """Inside corners under this angle whose offsets do not meet count as tangent; the control's own limit is not known."""
 
 NON_MOTION: Final = 10
 """Most blocks without motion in the plane that compensation looks across: assumed, as the machine builder sets it."""
 
-_MACHINE: Final = frozenset((280, 300, 530))
-_CHANGES: Final = frozenset((520, 920, 921, 540, 550, 560, 570, 580, 590))
+_MACHINE_POSITION_CODES: Final = frozenset((280, 300, 530))
+_OFFSET_CHANGE_CODES: Final = frozenset((520, 920, 921, 540, 550, 560, 570, 580, 590))
 
 
 class Before(NamedTuple):
@@ -114,21 +114,26 @@ class NineSeries(ElementQueue, Control):
         if self.active and not {0, 10}.isdisjoint(block.m):
             text = "Moves by hand or MDI at this stop are not compensated; compensation starts anew after them."
             self.log.tell(Severity.INFO, "R6", text, block.line, block.column("M"))
-        if self.active and not _CHANGES.isdisjoint(block.g):
+        if self.active and not _OFFSET_CHANGE_CODES.isdisjoint(block.g):
             self._interrupt(block)
-        if self.active and not _MACHINE.isdisjoint(block.g):
+        if self.active and not _MACHINE_POSITION_CODES.isdisjoint(block.g):
             text = "cutcomp does not know what compensation does with a move to a machine point. Write G40 before it."
             self.log.stop("HOME", text, block.line, block.column("G"))
-        if self.active and self.exit_block is None and not PLANES.keys().isdisjoint(block.g):
+        if self.active and self.exit_block is None and not PLANE_OF_CODE.keys().isdisjoint(block.g):
             text = "The plane is not changed under compensation; write G40 before."
             self.log.stop("PLANE", text, block.line, block.side_column())
 
     def _take_number(self, block: Block) -> None:
         self.number = number = whole_word(block, "D", self.log, "NUMBER", "D is an offset number, a whole number.")
-        if number == 0 and (self.active or not SWITCHES.isdisjoint(block.g)):
+        if number == 0 and (self.active or not COMPENSATION_CODES.isdisjoint(block.g)):
             text = "D0 does not cancel compensation, it goes on with radius 0; write G40 to cancel."
             self.log.tell(Severity.WARNING, "R3", text, block.line, block.column("D"))
-        if self.active and self.exit_block is None and SWITCHES.isdisjoint(block.g) and self.written_side is not None:
+        if (
+            self.active
+            and self.exit_block is None
+            and COMPENSATION_CODES.isdisjoint(block.g)
+            and self.written_side is not None
+        ):
             self.coming = self._offset_radius(block) * self.written_side.sign
 
     def _offset_radius(self, block: Block) -> float:
@@ -281,7 +286,7 @@ class NineSeries(ElementQueue, Control):
     def _missed(self, first: Element, second: Element) -> Joint:
         """Return the joint of an inside corner whose offsets do not meet: it is tangent, or an alarm."""
         end = offset_end(first, self.offset)
-        if inward_turn(first, second, self.offset) < TANGENT:
+        if inward_turn(first, second, self.offset) < MAX_TANGENT_ANGLE:
             return Joint(end, end)
         text = "The offset paths do not meet at this inside corner: the compensation vectors cross."
         self._interference("R10", text, second.line)

@@ -19,10 +19,10 @@ from core.controls.compensation.elements import Element, fits, offset_end, offse
 from core.controls.control_run import Log
 from core.controls.control_tools import missing_tool
 from core.controls.iso.code_support import OFFSETS_ANYWHERE, only_on
-from core.controls.iso.dialect import PLANES, CodeAction, Dialect, codes
+from core.controls.iso.dialect import PLANE_OF_CODE, CodeAction, Dialect, codes
 from core.controls.iso.expressions import ParameterStore
 from core.controls.iso.machine import Control
-from core.controls.iso.reader import SWITCHES, Block, whole_word
+from core.controls.iso.reader import COMPENSATION_CODES, Block, whole_word
 from core.controls.moves import Plane
 from core.finding import Severity
 from core.geometry.piece import Point, Side
@@ -50,7 +50,7 @@ DIALECT: Final = Dialect(
     rounding_moves=True,
 )
 
-CORNERS: Final = CornerRules(tangent=0.01, reversal=0.01, rapid_straight=True)
+CORNER_RULES: Final = CornerRules(tangent=0.01, reversal=0.01, rapid_straight=True)
 """NIST's corner rules: corners under 0.01 rad are treated as tangent."""
 
 _NOT_NOW: Final = frozenset((170, 180, 190, 280, 300, 520, 530, 920, 540, 550, 560, 570, 580, 590, 591, 592, 593))
@@ -119,14 +119,14 @@ class RosettaCnc(Control):
     def watch(self, block: Block) -> None:
         """Stop the run at what NIST's list forbids under compensation; cutcomp assumes that the list holds here."""
         self.machine.check_codes(block)
-        if "D" in block.words and SWITCHES.isdisjoint(block.g):
+        if "D" in block.words and COMPENSATION_CODES.isdisjoint(block.g):
             text = "D needs G41 or G42 in its block. cutcomp assumes this from NIST's list; the manual does not say."
             text = f"{text} In any block {only_on(OFFSETS_ANYWHERE)}"
             self.log.stop("C8", text, block.line, block.column("D"))
         if not self.active:
             return
         for code in _NOT_NOW.intersection(block.g):
-            if PLANES.get(code) is not self.plane:
+            if PLANE_OF_CODE.get(code) is not self.plane:
                 text = f"G{code / 10:g} is not allowed under compensation. cutcomp assumes this from NIST's list."
                 self.log.stop("C8", text, block.line, block.column("G", code))
 
@@ -150,7 +150,7 @@ class NormalEntry(OneMoveQueue, RosettaCnc):
 class NistEntry(ElementQueue, RosettaCnc):
     """The entry `nist`, without look-ahead; `before` is the element that ran last, `first`: none has run yet."""
 
-    rules = CORNERS
+    rules = CORNER_RULES
 
     def __init__(self, log: Log) -> None:
         super().__init__(log)

@@ -19,7 +19,7 @@ from core.controls.control_run import Log
 from core.controls.iso.code_support import OFFSETS_ANYWHERE, only_on
 from core.controls.iso.dialect import CodeAction, Dialect, codes
 from core.controls.iso.machine import Control
-from core.controls.iso.reader import SWITCHES, Block, Syntax
+from core.controls.iso.reader import COMPENSATION_CODES, Block, Syntax
 from core.controls.moves import Plane
 from core.finding import Severity
 from core.geometry.piece import Point, Side
@@ -39,16 +39,16 @@ DIALECT: Final = Dialect(
     cycles=False,
 )
 
-TANGENT: Final = radians(0.05)
+MAX_TANGENT_ANGLE: Final = radians(0.05)
 """Corners under this angle count as tangent; the control's own limit is not known."""
 
-QUICK: Final = 0.25
+SHORTEST_BLOCK_SECONDS: Final = 0.25
 """Seconds: a block that takes less makes the control dwell."""
 
 LARGEST_DIAMETER: Final = 83.23072
 """Millimeters (3.2768 in); the 83.321 mm printed next to it has two digits swapped."""
 
-_ORIGINS: Final = frozenset((40, 280, 300, 920, 540, 550, 560, 570, 580, 590, 200, 210, 700, 710))
+_ORIGIN_CODES: Final = frozenset((40, 280, 300, 920, 540, 550, 560, 570, 580, 590, 200, 210, 700, 710))
 _POINTLESS: Final = re.compile(r"[XYZIJ][ \t]*[-+]?0*[1-9][0-9]*(?![0-9.])", re.IGNORECASE)
 
 
@@ -59,7 +59,7 @@ class ThreeBlock(ElementQueue, Control):
     G45 is in force.
     """
 
-    rules = CornerRules(tangent=TANGENT, reversal=TANGENT)
+    rules = CornerRules(tangent=MAX_TANGENT_ANGLE, reversal=MAX_TANGENT_ANGLE)
 
     def __init__(self, log: Log) -> None:
         super().__init__(log)
@@ -79,7 +79,7 @@ class ThreeBlock(ElementQueue, Control):
             text = "Under G91 cutcomp counts the center from the arc's start; the manual does not say."
             self.log.tell(Severity.INFO, "G91-CENTER", text, block.line, block.column("IJ"))
         # D in a block with G41 or G42 may name the tool that is called, as on other controls
-        same_tool = not SWITCHES.isdisjoint(block.g) and self.machine.tool in (0, block.words.get("D"))
+        same_tool = not COMPENSATION_CODES.isdisjoint(block.g) and self.machine.tool in (0, block.words.get("D"))
         if "D" in block.words and not same_tool:
             text = "This control has no D: its radius is that of T. Write T and the diameter, as in T1//.5."
             self.log.stop("CODE", f"{text} {only_on(OFFSETS_ANYWHERE)}", block.line, block.column("D"))
@@ -93,7 +93,7 @@ class ThreeBlock(ElementQueue, Control):
             self.log.stop("B14-MCODE", text, block.line, block.column("M"))
         if not {180, 190}.isdisjoint(block.g) and 170 not in block.g:
             self.wrong_plane(block)
-        wrong = next((code for code in block.g if code in _ORIGINS), None)
+        wrong = next((code for code in block.g if code in _ORIGIN_CODES), None)
         if wrong is not None:
             text = f"cutcomp does not know what compensation does at G{wrong / 10:g}. Write G40 before it."
             self.log.stop("ORIGIN", text, block.line, block.column("G", wrong))
@@ -224,7 +224,7 @@ class ThreeBlock(ElementQueue, Control):
         if held is None or self.elements < 2 or held.turn or element.turn or not element.moves:
             return
         (ax, ay), (bx, by) = held.end_direction, element.start_direction
-        if abs(ax * by - ay * bx) < TANGENT:
+        if abs(ax * by - ay * bx) < MAX_TANGENT_ANGLE:
             text = "Two straight moves in a row lie on one line. Join them into one move."
             self.log.stop("B11-COLLINEAR", text, element.line, 1)
 
@@ -266,7 +266,7 @@ class ThreeBlock(ElementQueue, Control):
         length = hypot(end[0] - start[0], end[1] - start[1])
         if element.turn:
             length = element_sweep(element) * abs(offset_radius(element, self.offset))
-        if feed and not element.rapid and length / feed * 60 < QUICK:
+        if feed and not element.rapid and length / feed * 60 < SHORTEST_BLOCK_SECONDS:
             text = "This block takes less than a quarter of a second: the control dwells."
             self.log.tell(Severity.INFO, "B18-SHORT", text, element.line, 1)
 

@@ -81,7 +81,7 @@ _NINE_SERIES: Final = IsoStyle(
 )
 _FANUC: Final = replace(_NINE_SERIES, head=("%", "O0001"), tail=("%",))
 
-STYLES: Final[Mapping[str, IsoStyle]] = MappingProxyType(
+STYLE_OF_CONTROL: Final[Mapping[str, IsoStyle]] = MappingProxyType(
     {
         "threeblock": IsoStyle(
             "G70",

@@ -21,7 +21,7 @@ from core.controls.write.contour_pass import (
     programmed_elements,
 )
 from core.controls.write.iso_program import Frame, tools_of
-from core.controls.write.iso_style import STYLES, IsoStyle
+from core.controls.write.iso_style import STYLE_OF_CONTROL, IsoStyle
 from core.controls.write.lead_moves import ProtectedContour, clear_leads, merged, with_blends
 from core.controls.write.read_back import ComparedPaths, Intended, read_back
 from core.finding import Finding, Severity
@@ -73,7 +73,7 @@ def _klartext(
 
 
 def _iso(cuts: Sequence[PassToWrite], control: str, frame: Frame, remarks: Remarks) -> WrittenProgram | NotWritten:
-    style = STYLES[control]
+    style = STYLE_OF_CONTROL[control]
     led: dict[Compensated, PassWithLeads | Finding] = {}
     runs, refusals = list[PassWithLeads | UncompensatedPass](), dict[Finding, None]()
     for cut in cuts:

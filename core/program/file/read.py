@@ -14,11 +14,11 @@ from functools import cache, partial
 from typing import Any, Final, TypeVar
 
 from core.program.fields import (
+    FIELDS_OF_FORM,
     MAX_CHOICE,
     NUMBER_FIELDS,
     SEGMENT_FORMS,
-    STORED,
-    TABLES,
+    STORED_FIELDS,
     Field,
     Form,
     field_of,
@@ -26,7 +26,7 @@ from core.program.fields import (
     value_refusal,
 )
 from core.program.file.faults import KeyPath, cut_off, key_lines, line_of, syntax_fault
-from core.program.file.write import FORMAT, KIND, NEWER_FORMAT, RELATIVE, UNREAD
+from core.program.file.write import BLOCK_KIND, FILE_FORMAT, NEWER_FORMAT, RELATIVE_SUFFIX, UNREAD_TABLE
 from core.program.model import (
     ArcSegment,
     Block,
@@ -41,10 +41,10 @@ from core.program.model import (
     Typed,
     Unread,
 )
-from core.tolerance import LARGEST
+from core.tolerance import LARGEST_COORDINATE
 from core.units import Kind, Unit, printable, to_mm
 
-REQUIRED: Final = ("cutter_comp", "direction")
+REQUIRED_CHOICES: Final = ("cutter_comp", "direction")
 """The choices that a file must have."""
 
 _BARE: Final = re.compile(r"[+-]?\d+(\.\d+)?")
@@ -150,9 +150,9 @@ def _written(value: object) -> str:
 
 def _beyond(value: float, field: Field, unit: Unit) -> bool:
     """True if a number is larger than any machine could have, in program units or in millimeters."""
-    if not abs(value) <= LARGEST:
+    if not abs(value) <= LARGEST_COORDINATE:
         return True
-    return field.kind in (Kind.LENGTH, Kind.FEED) and round(to_mm(abs(value), unit), 3) > LARGEST
+    return field.kind in (Kind.LENGTH, Kind.FEED) and round(to_mm(abs(value), unit), 3) > LARGEST_COORDINATE
 
 
 Choice = TypeVar("Choice", bound=str)
@@ -163,12 +163,12 @@ def loads(text: str, file: str) -> Program:
     top = _Table(file, partial(key_lines, text), (), _parsed(text, file), Unit.IN)
     if "format" not in top.data:
         raise top.fault(
-            "format", f"format is missing, so this is not a cutcomp program: one begins with format = {FORMAT}."
+            "format", f"format is missing, so this is not a cutcomp program: one begins with format = {FILE_FORMAT}."
         )
     top.only(("format", "units", "parameters", "setup", "tool", "block"))
     version = top.data.get("format")
-    if isinstance(version, bool) or version not in (FORMAT, NEWER_FORMAT):
-        readable = f"format = {FORMAT} and {NEWER_FORMAT}"
+    if isinstance(version, bool) or version not in (FILE_FORMAT, NEWER_FORMAT):
+        readable = f"format = {FILE_FORMAT} and {NEWER_FORMAT}"
         raise top.fault("format", f"format cannot be {_written(version)}: this program reads {readable}.")
     top = _Table(file, top.lines, (), top.data, top.chosen("units", tuple(Unit)))
     return Program(
@@ -208,23 +208,23 @@ def _values(table: _Table, form: Form, *others: str) -> dict[str, Any]:
     """Return what is typed on a form by name; refuse any key that is neither a field's nor one of the others."""
     table.only(_keys(form, *others))
     values: dict[str, Any] = dict(_numbers(table, form))
-    for field in TABLES[form]:
+    for field in FIELDS_OF_FORM[form]:
         if field.kind is Kind.TEXT and field.name in table.data:
             values[field.name] = table.text(field.name)
         elif field.name == "tangent":
             values[field.name] = _tangent(table)
-        elif field.kind is Kind.CHOICE and (field.name in table.data or field.name in REQUIRED):
+        elif field.kind is Kind.CHOICE and (field.name in table.data or field.name in REQUIRED_CHOICES):
             values[field.name] = table.chosen(field.name, field.choices)
     return values
 
 
 def _numbers(table: _Table, form: Form) -> dict[str, Typed]:
     """Return the typed numbers of a form by name, absolute or relative, and the texts from its `unread` table."""
-    fields, unread = NUMBER_FIELDS[form], table.table(UNREAD)
+    fields, unread = NUMBER_FIELDS[form], table.table(UNREAD_TABLE)
     unread.only(tuple(field.name for field in fields))
     typed: dict[str, Typed] = {}
     for field in fields:
-        name, relative = field.name, field.name + RELATIVE
+        name, relative = field.name, field.name + RELATIVE_SUFFIX
         if name in table.data:
             typed[name] = Number(table.number(name, field))
         if field.relative and relative in table.data:
@@ -248,8 +248,8 @@ def _unread(table: _Table, field: Field) -> Unread:
 
 @cache
 def _keys(form: Form, *others: str) -> tuple[str, ...]:
-    relative = (field.name + RELATIVE for field in STORED[form] if field.relative)
-    return (*others, *(field.name for field in STORED[form]), *relative, UNREAD)
+    relative = (field.name + RELATIVE_SUFFIX for field in STORED_FIELDS[form] if field.relative)
+    return (*others, *(field.name for field in STORED_FIELDS[form]), *relative, UNREAD_TABLE)
 
 
 def _tools(top: _Table) -> tuple[Tool, ...]:
@@ -265,7 +265,7 @@ def _tools(top: _Table) -> tuple[Tool, ...]:
 def _tool(table: _Table) -> Tool:
     values = _values(table, Form.TOOL)
     number = values.pop("number", None)
-    field = TABLES[Form.TOOL][0]
+    field = FIELDS_OF_FORM[Form.TOOL][0]
     if not isinstance(number, Number) or value_refusal(field, number.value, table.unit):
         raise table.fault(
             "number", f"number {'is missing' if number is None else 'is not a tool number'}: write 1 to 9999."
@@ -274,8 +274,8 @@ def _tool(table: _Table) -> Tool:
 
 
 def _block(table: _Table) -> Block:
-    if table.text("kind") != KIND:
-        raise table.fault("kind", f'kind must be "{KIND}".')
+    if table.text("kind") != BLOCK_KIND:
+        raise table.fault("kind", f'kind must be "{BLOCK_KIND}".')
     values = _values(table, Form.START, "kind", "segment")
     lookahead = values.get("lookahead")
     if isinstance(lookahead, Number) and (

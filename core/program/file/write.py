@@ -6,7 +6,7 @@ import json
 from collections.abc import Iterator
 from typing import Final
 
-from core.program.fields import STORED, Form, form_of
+from core.program.fields import STORED_FIELDS, Form, form_of
 from core.program.model import (
     Block,
     ChamferSegment,
@@ -21,7 +21,7 @@ from core.program.model import (
 )
 from core.units import Kind
 
-FORMAT: Final = 1
+FILE_FORMAT: Final = 1
 """The program file format that every version reads."""
 
 NEWER_FORMAT: Final = 2
@@ -32,29 +32,29 @@ NEWER_KEYS: Final = frozenset(
 )
 """The segment keys that format 1 does not have, besides relative numbers and a `choice` above 1."""
 
-RELATIVE: Final = "_inc"
+RELATIVE_SUFFIX: Final = "_inc"
 """The suffix of the key of a relative number."""
 
-PROPOSALS: Final = ("speed", "feed", "plunge_feed", "coolant")
+PROPOSAL_KEYS: Final = ("speed", "feed", "plunge_feed", "coolant")
 """The keys of a tool that format 1 does not have."""
 
-KIND: Final = "MILL CONTOUR"
+BLOCK_KIND: Final = "MILL CONTOUR"
 """The kind of every block."""
 
-UNREAD: Final = "unread"
+UNREAD_TABLE: Final = "unread"
 """The table of typed texts that could not be read."""
 
-END: Final = "# end of program"
+LAST_LINE: Final = "# end of program"
 """The last line of a program file."""
 
-PROMISE: Final = f'# its last line is "{END}"'
+FIRST_LINE: Final = f'# its last line is "{LAST_LINE}"'
 """The comment on the first line, by which a truncated file is recognized."""
 
 
 def dumps(program: Program) -> str:
     """Return the text of a program's file."""
     lines = [
-        f"format = {format_of(program)}  {PROMISE}",
+        f"format = {format_of(program)}  {FIRST_LINE}",
         f'units = "{program.unit}"  # every length and feed below is in it',
     ]
     lines += _table("[parameters]", "parameters", Form.PARAMETERS, program.parameters)
@@ -62,19 +62,19 @@ def dumps(program: Program) -> str:
     for tool in program.tools:
         lines += _table("[[tool]]", "tool", Form.TOOL, tool)
     for block in program.blocks:
-        lines += _table("[[block]]", "block", Form.START, block, KIND)
+        lines += _table("[[block]]", "block", Form.START, block, BLOCK_KIND)
         for segment in block.segments:
             form = form_of(segment)
             lines += _table("[[block.segment]]", "block.segment", form, segment, form.value)
-    return "\n".join((*lines, "", END)) + "\n"
+    return "\n".join((*lines, "", LAST_LINE)) + "\n"
 
 
 def format_of(program: Program) -> int:
     """Return the format a program needs: 2 if it has anything that format 1 does not have."""
     segments = (segment for block in program.blocks for segment in block.segments)
     newer = any(map(_is_newer, segments)) or any(block.coolant is not None for block in program.blocks)
-    newer = newer or any(getattr(tool, name) is not None for tool in program.tools for name in PROPOSALS)
-    return NEWER_FORMAT if newer else FORMAT
+    newer = newer or any(getattr(tool, name) is not None for tool in program.tools for name in PROPOSAL_KEYS)
+    return NEWER_FORMAT if newer else FILE_FORMAT
 
 
 def _is_newer(segment: Segment) -> bool:
@@ -94,18 +94,18 @@ def _table(header: str, name: str, form: Form, part: Typable, kind: str | None =
     keys += _keys(form, part)
     unread = [f"{key} = {_quoted(text)}" for key, text in _unread(form, part)]
     if unread:
-        unread = ["", f"[{name}.{UNREAD}]", *unread]
+        unread = ["", f"[{name}.{UNREAD_TABLE}]", *unread]
     bare = header.startswith("[[") or keys or unread
     return ["", header, *keys, *unread] if bare else []
 
 
 def _keys(form: Form, part: Typable) -> Iterator[str]:
-    for field in STORED[form]:
+    for field in STORED_FIELDS[form]:
         value = getattr(part, field.name)
         if isinstance(value, Number):
             yield f"{field.name} = {_number(value.value, field.kind)}"
         elif isinstance(value, Relative):
-            yield f"{field.name}{RELATIVE} = {_number(value.value, field.kind)}"
+            yield f"{field.name}{RELATIVE_SUFFIX} = {_number(value.value, field.kind)}"
         elif isinstance(value, bool):
             if value:
                 yield f"{field.name} = true"
@@ -117,7 +117,7 @@ def _keys(form: Form, part: Typable) -> Iterator[str]:
 
 
 def _unread(form: Form, part: Typable) -> Iterator[tuple[str, str]]:
-    for field in STORED[form]:
+    for field in STORED_FIELDS[form]:
         value = getattr(part, field.name)
         if isinstance(value, Unread):
             yield field.name, value.text

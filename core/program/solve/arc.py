@@ -27,13 +27,13 @@ from core.program.solve.rules import Given, Known, Outcome, Rule, Task, contradi
 from core.tolerance import AGREES, ARC_RADII, CLOSED, JOINED
 from core.units import Kind, Unit, convert, decimals_shown, from_mm, to_mm
 
-_END: Final = ("x_end", "y_end")
-_CENTER: Final = ("x_center", "y_center")
+_END_FIELDS: Final = ("x_end", "y_end")
+_CENTER_FIELDS: Final = ("x_center", "y_center")
 
-DOUBTFUL: Final = 10.0 * CLOSED
+DOUBTFUL_GAP: Final = 10.0 * CLOSED
 """An arc whose end is within this distance of its start may be a full circle typed with too few digits."""
 
-ADJUSTED: Final = 5e-6
+MAX_SILENT_ADJUSTMENT: Final = 5e-6
 """Millimeters by which an arc's numbers may disagree without a message: half of the last posted digit."""
 
 MAX_ANGLE_DECIMALS: Final = 12
@@ -80,7 +80,7 @@ def _no_radius() -> Outcome:
 
 
 def _end_and_center(given: Given) -> Outcome:
-    end, center = _point(given.known, _END), _point(given.known, _CENTER)
+    end, center = _point(given.known, _END_FIELDS), _point(given.known, _CENTER_FIELDS)
     radius, out = dist(given.start, center), dist(end, center)
     if radius <= JOINED:
         return _no_radius()
@@ -91,20 +91,20 @@ def _end_and_center(given: Given) -> Outcome:
 
 
 def _center_and_coordinate(axis: int, given: Given) -> Outcome:
-    center, value = _point(given.known, _CENTER), given.known[_END[axis]]
+    center, value = _point(given.known, _CENTER_FIELDS), given.known[_END_FIELDS[axis]]
     radius = dist(given.start, center)
     if radius <= JOINED:
         return _no_radius()
     ends = construct.on_circle(center, radius, axis, value)
     if isinstance(ends, OutOfReach):
         text = f"The arc's radius is {{0}}: it does not reach {'XY'[axis]} END {{1}}."
-        return contradiction(text, _END[axis], radius, value)
+        return contradiction(text, _END_FIELDS[axis], radius, value)
     return _about_center(given, *points_of(ends))
 
 
 def _about_center(given: Given, *ends: Point) -> Outcome:
     """Return the arcs about a typed center to each end; SWEEP ANGLE decides what an end close to the start means."""
-    start, center, sweep = given.start, _point(given.known, _CENTER), given.known.get("sweep")
+    start, center, sweep = given.start, _point(given.known, _CENTER_FIELDS), given.known.get("sweep")
     close = [end for end in ends if _comes_back(start, end)]
     arcs = [construct.even_arc(start, end, center, given.turn) for end in close]
     others = [construct.even_arc(start, end, center, given.turn) for end in ends if end not in close]
@@ -150,7 +150,7 @@ def _angle_to_type(sweep: float) -> str:
 
 
 def _center_and_sweep(given: Given) -> Outcome:
-    center = _point(given.known, _CENTER)
+    center = _point(given.known, _CENTER_FIELDS)
     if dist(given.start, center) <= JOINED:
         return _no_radius()
     return Outcome((_turned(given.turn, given.start, center, given.known["sweep"]),))
@@ -164,7 +164,7 @@ def _turned(turn: Turn, start: Point, center: Point, sweep: float) -> Arc:
 
 
 def _end_and_radius(given: Given) -> Outcome | None:
-    start, end, radius = given.start, _point(given.known, _END), given.known["radius"]
+    start, end, radius = given.start, _point(given.known, _END_FIELDS), given.known["radius"]
     if _comes_back(start, end):
         return None
     centers = construct.centers(start, end, radius, given.turn)
@@ -176,7 +176,7 @@ def _end_and_radius(given: Given) -> Outcome | None:
 
 
 def _end_and_sweep(given: Given) -> Outcome | None:
-    end = _point(given.known, _END)
+    end = _point(given.known, _END_FIELDS)
     return None if _comes_back(given.start, end) else _by_sweep(given, end)
 
 
@@ -190,10 +190,10 @@ def _by_sweep(given: Given, *ends: Point) -> Outcome | None:
 
 
 def _end_and_center_coordinate(axis: int, given: Given) -> Outcome | None:
-    start, end = given.start, _point(given.known, _END)
+    start, end = given.start, _point(given.known, _END_FIELDS)
     if _comes_back(start, end):
         return None
-    center = construct.center_by_coordinate(start, end, axis, given.known[_CENTER[axis]])
+    center = construct.center_by_coordinate(start, end, axis, given.known[_CENTER_FIELDS[axis]])
     if not isinstance(center, OnePoint):
         return None
     return (
@@ -203,7 +203,7 @@ def _end_and_center_coordinate(axis: int, given: Given) -> Outcome | None:
 
 def _radius_sweep_center(axis: int, given: Given) -> Outcome:
     """Solve RADIUS, SWEEP ANGLE and one center coordinate: the center with the greater other coordinate first."""
-    radius, value = given.known["radius"], given.known[_CENTER[axis]]
+    radius, value = given.known["radius"], given.known[_CENTER_FIELDS[axis]]
     centers = construct.on_circle(given.start, radius, axis, value)
     if isinstance(centers, OutOfReach):
         text = f"RADIUS {{0~2}} does not reach {'XY'[axis]} CENTER {{1}}: it takes at least {{2~0}}."
@@ -218,10 +218,10 @@ def _radius_sweep_end(axis: int, given: Given) -> Outcome | None:
     chord = given.known["radius"] * construct.chord_factor(given.known["sweep"])
     if chord <= CLOSED:
         return None
-    ends = construct.on_circle(given.start, chord, axis, given.known[_END[axis]])
+    ends = construct.on_circle(given.start, chord, axis, given.known[_END_FIELDS[axis]])
     if isinstance(ends, OutOfReach):
         text = f"RADIUS and SWEEP ANGLE make the end {{0}} from the start: that does not reach {'XY'[axis]} END {{1}}."
-        return contradiction(text, _END[axis], chord, given.known[_END[axis]])
+        return contradiction(text, _END_FIELDS[axis], chord, given.known[_END_FIELDS[axis]])
     return _by_sweep(given, *points_of(ends))
 
 
@@ -250,8 +250,8 @@ def _center_needed(given: Given) -> tuple[tuple[str, ...], str] | None:
     """Return the blank center fields of an arc that ends at its start, with advice; None for any other end."""
     known = given.known
     end = known.get("x_end", given.start[0]), known.get("y_end", given.start[1])
-    blank = tuple(name for name in _CENTER if name not in known)
-    if not blank or not any(name in known for name in _END) or not _comes_back(given.start, end):
+    blank = tuple(name for name in _CENTER_FIELDS if name not in known)
+    if not blank or not any(name in known for name in _END_FIELDS) or not _comes_back(given.start, end):
         return None
     text = f"the end is at the start. For the full circle type {_labels(blank)}; for a shorter arc the center and "
     return blank, f"{text}SWEEP ANGLE, with X END and Y END blank."
@@ -262,7 +262,7 @@ def circle_finding(arc: Arc, given: Given) -> Finding | None:
     if arc.start == arc.end:
         return _full_circle_finding(given)
     gap = dist(arc.start, arc.end)
-    if gap > (CLOSED if "sweep" in given.known else DOUBTFUL) or arc.length <= JOINED:
+    if gap > (CLOSED if "sweep" in given.known else DOUBTFUL_GAP) or arc.length <= JOINED:
         return None
     text = f"The arc ends only {{value~0}} from its start and turns {shown_angle(abs(arc.sweep))} degrees. "
     text += "Enter SWEEP ANGLE 360 if the full circle is meant."
@@ -278,7 +278,7 @@ def _full_circle_finding(given: Given) -> Finding | None:
         return Finding("FULL_CIRCLE", Severity.WARNING, text, field="sweep")
     if gap <= JOINED or (sweep is not None and given.back):
         return None
-    names = tuple(name for name in _END if name in known)
+    names = tuple(name for name in _END_FIELDS if name in known)
     ends = _labels(names)
     if sweep is not None:
         text = f"SWEEP ANGLE 360 makes the full circle: it ends where it starts, {{value~0}} from {ends}."
@@ -295,11 +295,11 @@ def adjustment(arc: Arc, given: Given) -> Finding | None:
         center = known.get("x_center", arc.center[0]), known.get("y_center", arc.center[1])
         end = known.get("x_end", arc.end[0]), known.get("y_end", arc.end[1])
         radius, out = dist(arc.start, center), dist(end, center)
-        if abs(out - radius) > ADJUSTED:
+        if abs(out - radius) > MAX_SILENT_ADJUSTMENT:
             text = "Radius {0~1} at start, {1~0} at end: the arc is fitted to both."
             return Finding("ARC_ADJUSTED", Severity.INFO, text, value=abs(out - radius), lengths=(radius, out))
     radius = known.get("radius", arc.radius)
-    if abs(arc.radius - radius) <= ADJUSTED:
+    if abs(arc.radius - radius) <= MAX_SILENT_ADJUSTMENT:
         return None
     text = "RADIUS {0~1} does not fit the other numbers: {1~0} is used."
     return Finding("ARC_ADJUSTED", Severity.INFO, text, value=abs(arc.radius - radius), lengths=(radius, arc.radius))

@@ -17,7 +17,7 @@ from math import dist
 from typing import Final
 
 from core.finding import Finding, Severity
-from core.program.fields import TABLES, Form, field_of, form_of, typed_trouble
+from core.program.fields import FIELDS_OF_FORM, Form, field_of, form_of, typed_trouble
 from core.program.model import Block, Coolant, CornerSegment, CutterComp, Number, Program, Tool
 from core.program.solve.corners import Corners, put_corners_in
 from core.program.solve.reading import Reading, read_form, usable
@@ -28,7 +28,7 @@ from core.program.tools import CalledTool, called_tool
 from core.tolerance import CLOSED
 from core.units import Unit
 
-NEEDED: Final = ("tool", "x_start", "y_start", "z_start", "z_bottom", "plunge_feed", "speed")
+NEEDED_FIELDS: Final = ("tool", "x_start", "y_start", "z_start", "z_bottom", "plunge_feed", "speed")
 """The fields of START that must be typed, or proposed by TOOL SETUP."""
 
 FINISH_VALUES: Final = ("speed", "feed", "plunge_feed", "coolant")
@@ -118,7 +118,7 @@ def _corners(block: Block, drafts: Sequence[Draft]) -> Corners:
     sizes = {
         index: known[name]
         for index in corners
-        if (name := TABLES[form_of(block.segments[index])][0].name) in (known := drafts[index].reading.known)
+        if (name := FIELDS_OF_FORM[form_of(block.segments[index])][0].name) in (known := drafts[index].reading.known)
     }
     results = [draft.result for draft in drafts]
     lengthless = {index for index, result in enumerate(results) if result.piece is None and result.end is not None}
@@ -232,7 +232,7 @@ def _finish_values(block: Block, tool: Tool | None, finish: Tool | None) -> tupl
 
 def _missing(reading: Reading, tool: Tool | None, unit: Unit) -> Iterator[Finding]:
     """Report the blank fields of START that are needed: there is no proposal, or it cannot be used."""
-    for name in NEEDED:
+    for name in NEEDED_FIELDS:
         if reading.values[name] is not None:
             continue
         field = field_of(Form.START, name)

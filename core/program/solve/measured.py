@@ -8,7 +8,7 @@ from typing import Final
 from core.geometry.piece import Line, Piece, Point
 from core.units import Unit, from_mm
 
-ANGLES: Final = ("angle", "start_angle", "sweep")
+ANGLE_FIELDS: Final = ("angle", "start_angle", "sweep")
 """The names of the fields in radians."""
 WHOLE_TURN: Final = 1e-9
 """Radians below a whole turn at which a heading is 0 but for rounding."""
@@ -39,7 +39,7 @@ def measured(piece: Piece) -> dict[str, float]:
 def measured_fields(piece: Piece, unit: Unit) -> dict[str, float]:
     """Return the absolute values of a piece by field name, in program units and degrees."""
     return {
-        name: degrees(value) if name in ANGLES else from_mm(value, unit)
+        name: degrees(value) if name in ANGLE_FIELDS else from_mm(value, unit)
         for name, value in measured(piece).items()
         if not name.endswith("_inc")
     }

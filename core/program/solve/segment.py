@@ -8,7 +8,7 @@ from typing import Final, assert_never
 
 from core.finding import Finding, Severity
 from core.geometry.piece import Arc, Line, Piece, Point, Turn
-from core.program.fields import FARTHEST, TABLES, form_of
+from core.program.fields import FIELDS_OF_FORM, LARGEST_LENGTH, form_of
 from core.program.model import (
     ArcSegment,
     BlendSegment,
@@ -25,10 +25,10 @@ from core.program.solve.measured import heading_at, measured_fields
 from core.program.solve.reading import Reading
 from core.program.solve.rules import Given, Outcome, Task, solve
 from core.program.solve.solved import Origin, Value
-from core.tolerance import JOINED, LARGEST
+from core.tolerance import JOINED, LARGEST_COORDINATE
 from core.units import Unit, from_mm
 
-_ENDS: Final = ("x_end", "y_end")
+_END_FIELDS: Final = ("x_end", "y_end")
 
 TURNS: Final = {Direction.CW: Turn.CW, Direction.CCW: Turn.CCW}
 
@@ -94,7 +94,7 @@ def drafted(segment: Segment, reading: Reading, before: Carried, result: Segment
     reading.fill("z_end", None if z is None else from_mm(z, unit))
     # later segments start at a typed end even if this segment is not determined
     typed_end = (known["x_end"], known["y_end"]) if "x_end" in known and "y_end" in known else None
-    typed = typed_point(reading.values, _ENDS)
+    typed = typed_point(reading.values, _END_FIELDS)
     kept = axis_kept_from(before.point, segment, reading)
     if kept is not None:
         # the kept coordinate is the number typed for the segment before
@@ -117,7 +117,7 @@ def axis_kept_from(start: Point | None, segment: Segment, reading: Reading) -> i
     axis = kept_axis(segment) if isinstance(segment, LineSegment) else None
     if axis is None or start is None:
         return axis
-    name, known = _ENDS[1 - axis], reading.known
+    name, known = _END_FIELDS[1 - axis], reading.known
     step = known.get(name + "_inc", known[name] - start[1 - axis] if name in known else inf)
     return axis if abs(step) > JOINED else None
 
@@ -125,10 +125,10 @@ def axis_kept_from(start: Point | None, segment: Segment, reading: Reading) -> i
 def _keep_coordinate(segment: Segment, reading: Reading, before: Carried, unit: Unit) -> None:
     """Fill the other end coordinate of a LINE with only one typed, from the segment before."""
     axis = axis_kept_from(before.point, segment, reading)
-    names = (_ENDS[1 - axis], _ENDS[1 - axis] + "_inc") if axis is not None else ()
+    names = (_END_FIELDS[1 - axis], _END_FIELDS[1 - axis] + "_inc") if axis is not None else ()
     if axis is not None and before.point is not None and any(name in reading.known for name in names):
-        reading.known[_ENDS[axis]] = before.point[axis]
-        reading.fill(_ENDS[axis], from_mm(before.point[axis], unit), Origin.SAME)
+        reading.known[_END_FIELDS[axis]] = before.point[axis]
+        reading.fill(_END_FIELDS[axis], from_mm(before.point[axis], unit), Origin.SAME)
 
 
 def _result(segment: Segment, reading: Reading, before: Carried, unit: Unit) -> SegmentResult:
@@ -150,7 +150,7 @@ def _result(segment: Segment, reading: Reading, before: Carried, unit: Unit) -> 
 
 def _ends_at_start(reading: Reading, start: Point, typed: tuple[float | None, float | None], unit: Unit) -> bool:
     """True if each typed end coordinate of an arc is typed as that of its start."""
-    end = typed_point(reading.values, _ENDS)
+    end = typed_point(reading.values, _END_FIELDS)
     return all(
         value is None or is_start(value, here, here_typed, unit)
         for value, here, here_typed in zip(end, start, typed, strict=True)
@@ -158,7 +158,7 @@ def _ends_at_start(reading: Reading, start: Point, typed: tuple[float | None, fl
 
 
 def _corner(segment: CornerSegment, reading: Reading, corner: Point | None) -> SegmentResult:
-    size = TABLES[form_of(segment)][0]
+    size = FIELDS_OF_FORM[form_of(segment)][0]
     if reading.values[size.name] is not None:
         return SegmentResult(end=corner)
     missing = Finding("MISSING", Severity.ERROR, f"More data needed: type {size.label}.", field=size.name)
@@ -193,9 +193,9 @@ def _solved(task: Task, reading: Reading, given: Given, choice: int | None, unit
 def _too_far(piece: Piece) -> bool:
     """True if a piece ends beyond any machine's travel, or its center is too far away for exact numbers."""
     x, y = piece.end
-    if abs(x) > FARTHEST or abs(y) > FARTHEST:
+    if abs(x) > LARGEST_LENGTH or abs(y) > LARGEST_LENGTH:
         return True
-    return isinstance(piece, Arc) and max(map(abs, piece.center)) > LARGEST
+    return isinstance(piece, Arc) and max(map(abs, piece.center)) > LARGEST_COORDINATE
 
 
 def _unsolved(task: Task, outcome: Outcome, reading: Reading, start: Point) -> SegmentResult:

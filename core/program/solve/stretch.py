@@ -25,7 +25,7 @@ from core.program.solve.run.branch import Branch
 from core.program.solve.run.fitting_number import with_fitting_number
 from core.program.solve.run.from_pick import Picked, picked_answers
 from core.program.solve.run.search import Answer, Search, search
-from core.program.solve.run.typed_run import LONGEST, Element, Parallel, Run
+from core.program.solve.run.typed_run import MAX_RUN_LENGTH, Element, Parallel, Run
 from core.program.solve.segment import TURNS, Carried, Draft, SegmentResult, axis_kept_from, calculate, draft, drafted
 from core.program.solve.solved import Origin, RunAnswer, SolvedRun
 from core.tolerance import JOINED
@@ -146,7 +146,7 @@ def tangent_fault(contour: Contour, index: int) -> Finding | None:
 def _indices(contour: Contour, first: int) -> Iterator[int]:
     """Yield the indices of the LINEs and ARCs from `first` on, up to the most that are solved together."""
     at: int | None = first
-    for _ in range(LONGEST):
+    for _ in range(MAX_RUN_LENGTH):
         if at is None:
             return
         yield at
@@ -161,7 +161,7 @@ def _ends(contour: Contour, indices: Sequence[int]) -> bool:
     if after is None:
         return True
     numbers = {index + 1 for index in indices}
-    later = contour.readings[after : after + LONGEST]
+    later = contour.readings[after : after + MAX_RUN_LENGTH]
     return not _tied(contour, after) and not any(reading.known.get("parallel") in numbers for reading in later)
 
 
@@ -192,7 +192,7 @@ def _attempt(contour: Contour, indices: Sequence[int], before: Carried) -> _Atte
 def _narrowed(contour: Contour, attempt: _Attempt, before: Carried) -> _Attempt:
     """Extend the stretch by the segments tied to its end while they leave fewer answers."""
     best, indices, count = attempt, list(attempt.indices), len(attempt.indices)
-    while len(best.search.answers) > 1 and len(indices) < LONGEST:
+    while len(best.search.answers) > 1 and len(indices) < MAX_RUN_LENGTH:
         after = _next(contour, indices[-1])
         if after is None or not _tied(contour, after):
             break

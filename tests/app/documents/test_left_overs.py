@@ -12,7 +12,7 @@ from typing import Any
 import pytest
 
 from app.documents.files import load, save
-from app.documents.journal_file import SUFFIX, journal_path, lines, set_aside
+from app.documents.journal_file import JOURNAL_SUFFIX, journal_path, lines, set_aside
 from app.documents.left_overs import KeptCopy, file_of_copy, kept_copies, never_saved
 from app.documents.programs import example
 from app.documents.questions import Ask
@@ -443,7 +443,7 @@ def test_an_unreadable_copy_is_reported(state: Path, file: Path) -> None:
 @pytest.mark.parametrize("named", [True, False])
 def test_work_of_another_version_is_reported_and_kept(state: Path, file: Path, *, named: bool) -> None:
     state.mkdir(exist_ok=True)
-    journal = journal_path(file) if named else state / f"unnamed-mill-3-1-2{SUFFIX}"
+    journal = journal_path(file) if named else state / f"unnamed-mill-3-1-2{JOURNAL_SUFFIX}"
     written, _ = lines([{"journal": 2, "owner": asdict(DEAD), "base": {}}, {"do": "TOOL", "delta": {}}])
     journal.write_bytes(written)
     operator = started(state, file if named else None)
@@ -458,7 +458,7 @@ def test_work_of_another_version_is_reported_and_kept(state: Path, file: Path, *
 def test_work_that_another_version_is_doing_is_not_asked_about(state: Path) -> None:
     state.mkdir(exist_ok=True)
     written, _ = lines([{"journal": 2, "owner": asdict(ALIVE), "base": {}}])
-    (state / f"unnamed-mill-3-1-2{SUFFIX}").write_bytes(written)
+    (state / f"unnamed-mill-3-1-2{JOURNAL_SUFFIX}").write_bytes(written)
     assert started(state).offer is None
 
 

@@ -15,7 +15,7 @@ import pytest
 
 from app.documents.files import stamp_of
 from app.documents.lock import (
-    UNKNOWN,
+    UNKNOWN_OWNER,
     Lock,
     Owner,
     alive,
@@ -116,7 +116,7 @@ def test_a_zombie_counts_as_dead() -> None:
 
 def test_a_process_of_another_host_counts_as_alive() -> None:
     assert alive(ELSEWHERE)
-    assert alive(UNKNOWN)
+    assert alive(UNKNOWN_OWNER)
     assert alive(ME)
     assert not alive(replace(ME, pid=DEAD_PID))
 
@@ -162,7 +162,7 @@ def test_a_lock_we_may_not_read_counts_as_held(part: Path, monkeypatch: pytest.M
         raise PermissionError(errno.EACCES, "hidden")
 
     monkeypatch.setattr("app.documents.lock.read_file", hidden)
-    assert take(part, ME) == UNKNOWN
+    assert take(part, ME) == UNKNOWN_OWNER
     assert take_over(part, ME).owner == ME
 
 

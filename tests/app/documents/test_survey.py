@@ -11,7 +11,7 @@ import pytest
 
 from app.documents import survey
 from app.documents.files import load
-from app.documents.journal_file import SUFFIX, journal_path
+from app.documents.journal_file import JOURNAL_SUFFIX, journal_path
 from app.documents.programs import examples
 from app.documents.survey import Outcome, facts_of, programs_of
 from app.session.posting import setup_sheet
@@ -58,7 +58,7 @@ def test_a_never_saved_program_is_listed(
     if closed:
         monkeypatch.setattr(os, "access", lambda *_: False)
     started(state, part.with_name("flap.toml")).type(7).killed()
-    part.with_name(f".lost.nc{SUFFIX}").write_text("an NC text's own")
+    part.with_name(f".lost.nc{JOURNAL_SUFFIX}").write_text("an NC text's own")
     assert names(part.parent) == ["flap", "part"]
     assert facts_of(part.with_name("flap.toml")).outcome is Outcome.NOT_SAVED
 

@@ -19,7 +19,7 @@ from app.documents.files import load, save
 from core.pipeline.derive import derive
 from core.pipeline.post import post_center_path
 from core.program.edit import new_block
-from core.program.fields import TABLES, Form
+from core.program.fields import FIELDS_OF_FORM, Form
 from core.program.model import Number, Program, Tool
 from core.units import Unit
 from tests.rs274 import Ran, run
@@ -42,7 +42,7 @@ def start(x: float, y: float, side: str = "") -> bytes:
 
 def fields(form: Form, typed: dict[str, float | bool]) -> bytes:
     """The keys that fill in a segment from its first field; Space toggles TANGENT, and SOLUTION, reached by Enter."""
-    names = [field.name for field in TABLES[form]]
+    names = [field.name for field in FIELDS_OF_FORM[form]]
     at, keys = 0, b""
     for name in sorted(typed.keys() - {"choice"}, key=names.index):
         keys += TAB * (names.index(name) - at)

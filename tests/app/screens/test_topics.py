@@ -5,10 +5,12 @@ from __future__ import annotations
 import pytest
 
 from app.screens.topics import TOPICS, topic_of
-from core.program.fields import TABLES, Form, field_of
+from core.program.fields import FIELDS_OF_FORM, Form, field_of
 
 
-@pytest.mark.parametrize(("form", "name"), [(form, field.name) for form, table in TABLES.items() for field in table])
+@pytest.mark.parametrize(
+    ("form", "name"), [(form, field.name) for form, table in FIELDS_OF_FORM.items() for field in table]
+)
 def test_every_field_has_an_ascii_topic_with_a_picture_of_at_most_56_columns(form: Form, name: str) -> None:
     topic = TOPICS[form, name]
     assert topic.words.isascii()

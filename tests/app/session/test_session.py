@@ -6,7 +6,7 @@ from dataclasses import replace
 
 from app.documents.programs import empty_program
 from app.session.changes import changed
-from app.session.session import SEGMENT, Session
+from app.session.session import SEGMENT_FIELD, Session
 from core.pipeline.fields_stage import solve_fields
 from core.program.edit import FormPlace
 from core.program.model import LineSegment, Number, Program
@@ -51,7 +51,7 @@ def test_undoing_a_new_segment_moves_the_cursor_off_it():
     before = session(LineSegment())
     longer = replace(before.program.blocks[0], segments=(LineSegment(), LineSegment()))
     edited = before.with_program(replace(before.program, blocks=(longer,)), "LINE").at(FormPlace(1, 2), "x_end")
-    assert (edited.undone().place, edited.undone().cursor.field) == (FormPlace(1, 1), SEGMENT)
+    assert (edited.undone().place, edited.undone().cursor.field) == (FormPlace(1, 1), SEGMENT_FIELD)
 
 
 def test_a_change_outside_the_blocks_keeps_the_cursor_and_equal_programs_have_no_change():

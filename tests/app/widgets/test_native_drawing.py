@@ -8,8 +8,8 @@ from textual.app import App, ComposeResult
 
 from app.documents.files import load
 from app.documents.programs import example
-from app.theme import DARK, themes
-from app.widgets.drawing import LOOKS, Drawing
+from app.theme import DARK_THEME, themes
+from app.widgets.drawing import LOOK_OF_STYLE, Drawing
 from core.draw.characters import Mode
 from core.draw.scene import Style
 from core.pipeline.derive import derive
@@ -32,7 +32,7 @@ class Shown(App[None]):
         super().__init__()
         for theme in themes():
             self.register_theme(theme)
-        self.theme = DARK
+        self.theme = DARK_THEME
 
     def compose(self) -> ComposeResult:
         yield Drawing(id="part")
@@ -46,7 +46,7 @@ async def settled(app: Shown) -> list[str]:
 
 def test_every_style_has_a_look():
     names = {"SURFACE": "part", "RAPID": "rough"}
-    assert list(LOOKS) == [names.get(style.name, style.name.lower().replace("_", "-")) for style in Style]
+    assert list(LOOK_OF_STYLE) == [names.get(style.name, style.name.lower().replace("_", "-")) for style in Style]
 
 
 async def test_a_subject_is_drawn_with_a_scale_bar_in_the_frame(pocket):

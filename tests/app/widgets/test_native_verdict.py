@@ -10,7 +10,7 @@ from textual.widgets import Static
 from app.documents.files import load
 from app.documents.programs import empty_program, example
 from app.session.words import segment_numbers
-from app.widgets.verdict import MARKS, Case, Verdict, chips, strip, title
+from app.widgets.verdict import MARKS_OF_CHARACTERS, Case, Verdict, chips, strip, title
 from core.finding import Finding, Severity
 from core.pipeline.derive import derive, look_ahead_table
 from core.pipeline.derived import DerivedBlock
@@ -35,7 +35,7 @@ def notch() -> Case:
 
 
 def test_the_pocket_has_the_designed_title_strip_and_chips(pocket):
-    marks = MARKS["braille"]
+    marks = MARKS_OF_CHARACTERS["braille"]
     assert title(pocket) == "LOOK-AHEAD CAL 8 deletes segment 9"
     assert strip(pocket, marks).plain == " 1 ✖•••••• 8 •••••••••••• 20   best 2: deletes 9"
     assert chips(pocket, marks).plain == "✓ GOUGE none   ▲ UNCUT 1.9367 long   × DELETED 9"
@@ -43,15 +43,15 @@ def test_the_pocket_has_the_designed_title_strip_and_chips(pocket):
 
 def test_a_gouge_comes_first_in_title_and_chips(notch):
     assert title(notch).startswith("LOOK-AHEAD CAL 2 gouges segment ")
-    assert chips(notch, MARKS["braille"]).plain.startswith("✖ GOUGE 0.2500")
+    assert chips(notch, MARKS_OF_CHARACTERS["braille"]).plain.startswith("✖ GOUGE 0.2500")
 
 
 def test_every_character_set_has_a_cell_for_each_value(pocket):
-    for characters, marks in MARKS.items():
+    for characters, marks in MARKS_OF_CHARACTERS.items():
         line = strip(pocket, marks).plain
         assert line.startswith(f" 1 {marks.gouge}"), characters
         assert line.index(" 20") == 3 + 7 + 3 + 12
-    assert chips(pocket, MARKS["ascii"]).plain.isascii()
+    assert chips(pocket, MARKS_OF_CHARACTERS["ascii"]).plain.isascii()
 
 
 def test_the_title_shows_the_progress_of_the_calculation(pocket):
@@ -59,7 +59,7 @@ def test_the_title_shows_the_progress_of_the_calculation(pocket):
 
 
 def test_without_a_table_no_value_is_called_best(pocket):
-    assert strip(replace(pocket, table=None), MARKS["braille"]).plain.rstrip().endswith(" 20")
+    assert strip(replace(pocket, table=None), MARKS_OF_CHARACTERS["braille"]).plain.rstrip().endswith(" 20")
 
 
 def test_the_chips_show_an_error_after_a_clean_beginning():
@@ -70,12 +70,14 @@ def test_the_chips_show_an_error_after_a_clean_beginning():
     block_with_error = derive(spoiled).block(1)
     case = Case(block_with_error, look_ahead_table(block_with_error, spoiled), program.unit)
     assert title(case).endswith("segments 1-2 only")
-    assert chips(case, MARKS["braille"]).plain.startswith("✖ ")
-    assert "none" not in chips(case, MARKS["braille"]).plain
+    assert chips(case, MARKS_OF_CHARACTERS["braille"]).plain.startswith("✖ ")
+    assert "none" not in chips(case, MARKS_OF_CHARACTERS["braille"]).plain
     # a segment that is only incomplete is no error
     blank = changed(block.segments[2], {"x_end": None})
     waiting = replace(program, blocks=(replace(block, segments=(*block.segments[:2], blank, *block.segments[3:])),))
-    assert "GOUGE none" in chips(Case(derive(waiting).block(1), None, program.unit), MARKS["braille"]).plain
+    assert (
+        "GOUGE none" in chips(Case(derive(waiting).block(1), None, program.unit), MARKS_OF_CHARACTERS["braille"]).plain
+    )
 
 
 def test_the_chips_of_a_clean_path_with_a_warning_point_to_f10(pocket):
@@ -84,8 +86,8 @@ def test_the_chips_of_a_clean_path_with_a_warning_point_to_f10(pocket):
     typed = replace(program, blocks=(changed_block,))
     block = derive(typed).block(1)
     assert any(finding.severity is Severity.WARNING for finding in block.findings)
-    assert chips(Case(block, None, program.unit), MARKS["braille"]).plain.endswith("▲ see F10")
-    assert "F10" not in chips(pocket, MARKS["braille"]).plain
+    assert chips(Case(block, None, program.unit), MARKS_OF_CHARACTERS["braille"]).plain.endswith("▲ see F10")
+    assert "F10" not in chips(pocket, MARKS_OF_CHARACTERS["braille"]).plain
 
 
 def test_the_chips_of_a_clean_path_with_an_error_point_to_f10_first():
@@ -100,7 +102,7 @@ def test_the_chips_of_a_clean_path_with_an_error_point_to_f10_first():
     ):
         block = derive(replace(program, blocks=(spoiled,))).block(1)
         assert block.errors
-        assert chips(Case(block, None, program.unit), MARKS["braille"]).plain.endswith("✖ see F10")
+        assert chips(Case(block, None, program.unit), MARKS_OF_CHARACTERS["braille"]).plain.endswith("✖ see F10")
 
 
 def test_the_chips_of_many_deleted_segments_still_point_to_f10(pocket):
@@ -110,17 +112,20 @@ def test_the_chips_of_many_deleted_segments_still_point_to_f10(pocket):
     warning = Finding("ANY", Severity.WARNING, "A warning.", 2)
     block = replace(pocket.block, paths=replace(paths, compensated=compensated))
     case = Case(replace(block, findings=(warning,)), None, Unit.MM)
-    line = chips(case, MARKS["braille"]).plain
+    line = chips(case, MARKS_OF_CHARACTERS["braille"]).plain
     assert line == "✓ GOUGE none  ▲ UNCUT 49.191 long  × 4 DELETED  ▲ see F10"
     assert len(line) <= 57
-    without = chips(Case(replace(block, findings=()), None, Unit.MM), MARKS["braille"]).plain
+    without = chips(Case(replace(block, findings=()), None, Unit.MM), MARKS_OF_CHARACTERS["braille"]).plain
     assert without == "✓ GOUGE none   ▲ UNCUT 49.191 long   × DELETED 2 4 6 8"
 
 
 def test_an_empty_block_says_what_to_type_first():
     program = empty_program()
     block: DerivedBlock = derive(program).block(1)
-    assert chips(Case(block, None, Unit.IN), MARKS["braille"]).plain == " Fill in START, then Page Down for segment 1."
+    assert (
+        chips(Case(block, None, Unit.IN), MARKS_OF_CHARACTERS["braille"]).plain
+        == " Fill in START, then Page Down for segment 1."
+    )
 
 
 def test_runs_of_segment_numbers_are_joined():
@@ -143,12 +148,12 @@ async def test_the_widget_shows_a_new_case_at_once(pocket, notch):
             verdict.case = case
             await pilot.pause()
             assert verdict.border_title == title(case)
-            assert str(app.query_one("#chips", Static).content) == str(chips(case, MARKS["braille"]))
+            assert str(app.query_one("#chips", Static).content) == str(chips(case, MARKS_OF_CHARACTERS["braille"]))
 
 
 def test_the_chips_say_why_there_is_no_path():
     program = load(example("pocket"))
     program = replace(program, blocks=(replace(program.blocks[0], tool=Number(9.0)),))
     case = Case(derive(program).block(1), None, program.unit)
-    assert chips(case, MARKS["braille"]).plain.startswith("✖ Tool 9")
-    assert len(chips(case, MARKS["braille"])) <= 58
+    assert chips(case, MARKS_OF_CHARACTERS["braille"]).plain.startswith("✖ Tool 9")
+    assert len(chips(case, MARKS_OF_CHARACTERS["braille"])) <= 58

@@ -8,7 +8,7 @@ import pytest
 
 from core.comp.compensate import compensate, compensate_all
 from core.comp.compensated import Compensated
-from core.comp.lookahead import HIGHEST, LOWEST, calculated
+from core.comp.lookahead import MAX_LOOKAHEAD, MIN_LOOKAHEAD, calculated
 from core.geometry.path import Path
 from core.geometry.piece import Arc, Line, Side, Turn
 from tests.core.comp.golden import (
@@ -46,7 +46,7 @@ CASES = {
 }
 
 every_case = pytest.mark.parametrize("golden", CASES.values(), ids=CASES.keys())
-every_lookahead = pytest.mark.parametrize("lookahead", range(LOWEST, HIGHEST + 1))
+every_lookahead = pytest.mark.parametrize("lookahead", range(MIN_LOOKAHEAD, MAX_LOOKAHEAD + 1))
 
 
 def _near(one, other) -> bool:
@@ -72,7 +72,7 @@ def test_golden_case_at_every_lookahead(golden, lookahead):
 
 @every_case
 def test_table_of_all_lookaheads_is_the_same(golden):
-    values = range(LOWEST, HIGHEST + 1)
+    values = range(MIN_LOOKAHEAD, MAX_LOOKAHEAD + 1)
     for value, done in zip(
         values, compensate_all(golden.contour, golden.side, RADIUS, values, closed=golden.closed), strict=True
     ):

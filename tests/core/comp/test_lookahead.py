@@ -8,7 +8,7 @@ from typing import NamedTuple
 
 import pytest
 
-from core.comp.lookahead import HIGHEST, LOWEST, calculated, recommended
+from core.comp.lookahead import MAX_LOOKAHEAD, MIN_LOOKAHEAD, calculated, recommended
 
 OPEN = [2, 2, 2, 2, 2, 3, 4, 5, 6, 7, 8, 8]
 CLOSED = [3, 3, 3, 3, 4, 5, 6, 7, 8, 8, 8, 8]
@@ -29,7 +29,7 @@ def test_long_contours_stay_at_eight():
 
 
 def test_range_of_a_typed_value():
-    assert (LOWEST, HIGHEST) == (1, 20)
+    assert (MIN_LOOKAHEAD, MAX_LOOKAHEAD) == (1, 20)
 
 
 class Outcome(NamedTuple):

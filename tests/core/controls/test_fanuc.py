@@ -48,7 +48,7 @@ def ran(program: str, control: str = "fanuc:a", radii: dict[int, float] | None =
 
 def ran_with(program: str, **rules: Any) -> ControlRun:
     """Run on `fanuc:a` with other parameters."""
-    changed = replace(fanuc.RULES["a"], **rules)
+    changed = replace(fanuc.VECTOR_RULES["a"], **rules)
     table = ToolTable.of(CutterTool(1, 10.0))
     return execute(program.encode(), "fanuc:a", fanuc.DIALECT, table, partial(fanuc.Fanuc, rules=changed))
 

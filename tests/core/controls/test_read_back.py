@@ -15,7 +15,7 @@ from core.comp.compensate import compensate
 from core.controls.registry import names
 from core.controls.write.contour_pass import CenterMove, CompensatedPass, WrittenLine
 from core.controls.write.iso_program import Frame, tools_of
-from core.controls.write.iso_style import STYLES
+from core.controls.write.iso_style import STYLE_OF_CONTROL
 from core.controls.write.read_back import (
     Intended,
     compare_path,
@@ -117,7 +117,7 @@ def intended_program() -> Intended:
     """A correct program for LinuxCNC."""
     square = cut(squared(Side.RIGHT))
     lines = tuple(WrittenLine(text, 3.0) for text in text_of("linuxcnc", square).splitlines())
-    tools = tools_of((square,), STYLES["linuxcnc"])
+    tools = tools_of((square,), STYLE_OF_CONTROL["linuxcnc"])
     return Intended("linuxcnc", lines, (square,), tools, Unit.IN, 1e-6 * INCH, leads=True)
 
 
@@ -141,7 +141,9 @@ def test_a_wrong_program_is_refused() -> None:
 
 def test_a_right_program_with_another_tool_is_refused() -> None:
     right = intended_program()
-    bigger = replace(right, tools=tools_of((replace(right.cuts[0], diameter=0.6 * INCH),), STYLES["linuxcnc"]))
+    bigger = replace(
+        right, tools=tools_of((replace(right.cuts[0], diameter=0.6 * INCH),), STYLE_OF_CONTROL["linuxcnc"])
+    )
     assert "uncut" in errors_of(*read_back(bigger))[0].text
 
 

@@ -10,7 +10,7 @@ from core.controls.control_run import ControlRun
 from core.controls.registry import names, run
 from core.controls.write.contour_pass import CompensatedPass, PassToWrite
 from core.controls.write.iso_program import Frame, tools_of
-from core.controls.write.iso_style import STYLES
+from core.controls.write.iso_style import STYLE_OF_CONTROL
 from core.controls.write.written_program import NotWritten, WrittenProgram, write_program
 from core.finding import Finding
 from core.geometry.path import Path
@@ -60,7 +60,11 @@ def text_of(control: str, *cuts: PassToWrite) -> str:
 
 def made_by(control: str, text: str, *cuts: PassToWrite) -> ControlRun:
     """What the control does with a program and the tools it counts on."""
-    tools = tools_of(cuts, STYLES[control]) if control in STYLES else tools_of(cuts, STYLES["linuxcnc"])
+    tools = (
+        tools_of(cuts, STYLE_OF_CONTROL[control])
+        if control in STYLE_OF_CONTROL
+        else tools_of(cuts, STYLE_OF_CONTROL["linuxcnc"])
+    )
     made = run(text.encode(), control, tools, Unit.IN)
     assert isinstance(made, ControlRun)
     return made

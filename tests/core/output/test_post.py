@@ -6,7 +6,7 @@ import pytest
 from core.finding import Finding, Severity
 from core.geometry.piece import Turn
 from core.output.nc import Posted, Refusal, center_path_program, comments
-from core.output.objections import OVERRIDE
+from core.output.objections import OVERRIDE_PHRASE
 from core.output.passes import CenterPath, Cutter, Floor, Job, passes
 from core.program.model import Coolant
 from core.units import Unit, located_sentence
@@ -201,13 +201,13 @@ def test_the_feed_of_an_omitted_move_does_not_take_effect():
     assert [line for line in lines.splitlines() if line.startswith("G1 X")] == ["G1 X1.0 F10.0", "G1 X2.0"]
 
 
-@pytest.mark.parametrize("override", [None, "", "post with gouge", "YES", OVERRIDE + " "])
+@pytest.mark.parametrize("override", [None, "", "post with gouge", "YES", OVERRIDE_PHRASE + " "])
 def test_a_gouge_is_refused_without_the_exact_override(override):
     assert refused(job(SLOT, findings=(GOUGE,)), override) == ["GOUGE"]
 
 
 def test_an_overridden_gouge_stands_in_the_header():
-    result = center_path_program([job(SLOT, findings=(GOUGE,))], Unit.IN, name="SLOT", override=OVERRIDE)
+    result = center_path_program([job(SLOT, findings=(GOUGE,))], Unit.IN, name="SLOT", override=OVERRIDE_PHRASE)
     assert isinstance(result, Posted)
     assert result.overridden == (GOUGE,)
     assert "(OVERRIDDEN GOUGE: Segment 2: Gouges by 0.1000 at X 1.0000 Y 0.0000.)" in result.text
@@ -215,13 +215,13 @@ def test_an_overridden_gouge_stands_in_the_header():
 
 
 def test_an_override_leaves_no_trace_when_there_is_nothing_to_override():
-    assert "OVERRIDDEN" not in text(job(SLOT), override=OVERRIDE)
+    assert "OVERRIDDEN" not in text(job(SLOT), override=OVERRIDE_PHRASE)
 
 
 @pytest.mark.parametrize("code", ["UNREAD", "MISSING", "TOOL_MISSING", "ARC_RADII", "ANYTHING_NEW"])
 def test_unknown_values_cannot_be_overridden(code):
     finding = Finding(code, Severity.ERROR, "Not known.")
-    assert refused(job(SLOT, findings=(finding, GOUGE)), OVERRIDE) == [code]
+    assert refused(job(SLOT, findings=(finding, GOUGE)), OVERRIDE_PHRASE) == [code]
 
 
 def test_warnings_do_not_prevent_posting():
@@ -263,7 +263,7 @@ NAN, INFINITE = float("nan"), float("inf")
 )
 def test_a_job_that_cannot_be_cut_is_refused_and_cannot_be_overridden(changes, code):
     assert code in refused(job(SLOT, **changes))
-    assert code in refused(job(SLOT, **changes), OVERRIDE)
+    assert code in refused(job(SLOT, **changes), OVERRIDE_PHRASE)
 
 
 def sentence_of(code: str, **changes: object) -> str:

@@ -8,7 +8,7 @@ from xml.etree import ElementTree
 from core.finding import Finding, Severity
 from core.geometry.piece import Turn
 from core.output.passes import CenterPath, Cutter, Job
-from core.output.sheet import NOT_READY, PAGE_COLUMNS, READY, Sheet, as_page, as_text, sheet
+from core.output.sheet import NOT_READY, PAGE_COLUMNS, READY_TEXT, Sheet, as_page, as_text, sheet
 from core.program.model import Coolant
 from core.units import Unit
 from tests.core.output.jobs import INCH, arc, floors, job, path_of, polyline
@@ -100,7 +100,7 @@ def test_a_gouge_makes_the_sheet_say_do_not_run_and_keeps_the_depths():
     assert setup_sheet.errors == ("Block 1, segment 1: gouges by 0.2500 (deep).",)
     assert len(setup_sheet.blocks[0].table) == 4
     assert NOT_READY in as_text(setup_sheet)
-    assert READY not in as_text(setup_sheet)
+    assert READY_TEXT not in as_text(setup_sheet)
     assert "LOOKAHEAD          CAL 2" in as_text(setup_sheet)
 
 
@@ -131,7 +131,7 @@ def test_the_page_is_one_document_with_embedded_drawings():
     assert [element.tag for element in tree.iter() if element.tag.endswith("}svg")] == [
         "{http://www.w3.org/2000/svg}svg"
     ]
-    assert READY in page
+    assert READY_TEXT in page
     assert "http" not in page.replace("http://www.w3.org/2000/svg", "")
 
 
@@ -312,7 +312,7 @@ def test_a_page_that_is_not_ready_gives_the_reason():
     page = as_page(sheet_of(gouging()), [""])
     against = f'<div class="bad">{NOT_READY}<ul>\n<li>Block 1, segment 1: gouges by 0.2500 (deep).</li>\n</ul></div>'
     assert against in page
-    assert READY not in page
+    assert READY_TEXT not in page
 
 
 def test_findings_of_start_or_of_no_segment_name_no_segment():

@@ -8,7 +8,7 @@ from dataclasses import replace
 from hypothesis import strategies as st
 
 from core.finding import Severity
-from core.program.fields import PICK, STORED, Field, Form
+from core.program.fields import PICK, STORED_FIELDS, Field, Form
 from core.program.model import (
     ArcSegment,
     BlendSegment,
@@ -120,7 +120,7 @@ def typed(one: Field, unit: Unit) -> st.SearchStrategy[Typed]:
 
 
 def _entries(form: Form, unit: Unit, *but: str) -> dict[str, st.SearchStrategy[Typed]]:
-    fields = (one for one in STORED[form] if one.kind not in (Kind.CHOICE, Kind.TEXT) and one.name not in but)
+    fields = (one for one in STORED_FIELDS[form] if one.kind not in (Kind.CHOICE, Kind.TEXT) and one.name not in but)
     return {one.name: typed(one, unit) for one in fields}
 
 

@@ -9,7 +9,7 @@ from hypothesis import HealthCheck, given, settings
 
 from core.program import edit
 from core.program.edit import FormPlace, Refused, set_unit
-from core.program.fields import PARAMETERS, SETUP, START, TABLES, Form, field_of, unread_reason
+from core.program.fields import FIELDS_OF_FORM, PARAMETERS, SETUP, START, Form, field_of, unread_reason
 from core.program.file.read import loads
 from core.program.file.write import dumps
 from core.program.model import (
@@ -347,7 +347,7 @@ def expected(kind: Kind) -> Number:
 
 
 def numbers(form: Form) -> list[tuple[str, Kind]]:
-    return [(field.name, field.kind) for field in TABLES[form] if field.kind not in (Kind.CHOICE, Kind.TEXT)]
+    return [(field.name, field.kind) for field in FIELDS_OF_FORM[form] if field.kind not in (Kind.CHOICE, Kind.TEXT)]
 
 
 @pytest.mark.parametrize(("name", "kind"), numbers(Form.START))

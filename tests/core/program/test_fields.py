@@ -8,7 +8,7 @@ import pytest
 
 from core.program import fields
 from core.program.fields import (
-    TABLES,
+    FIELDS_OF_FORM,
     TYPE_AGAIN,
     Form,
     default_value,
@@ -49,13 +49,13 @@ PARTS = {
 @pytest.mark.parametrize("form", Form)
 def test_every_attribute_has_its_field(form):
     part, others = PARTS[form]
-    assert {item.name for item in TABLES[form]} | others == {item.name for item in attributes(part)}
-    assert all(field_of(form, item.name) is item for item in TABLES[form])
+    assert {item.name for item in FIELDS_OF_FORM[form]} | others == {item.name for item in attributes(part)}
+    assert all(field_of(form, item.name) is item for item in FIELDS_OF_FORM[form])
 
 
 @pytest.mark.parametrize("form", Form)
 def test_every_field_has_a_label_a_prompt_and_the_choices_of_its_kind(form):
-    for one in TABLES[form]:
+    for one in FIELDS_OF_FORM[form]:
         assert one.label == one.label.upper()
         assert one.prompt.endswith(".")
         assert bool(one.choices) == (one.kind is Kind.CHOICE)

@@ -14,7 +14,7 @@ from hypothesis import given, settings
 
 from core.finding import Severity
 from core.geometry.piece import Arc, Line
-from core.program.fields import PARAMETERS, SETUP, TABLES, Form, bounds, value_refusal
+from core.program.fields import FIELDS_OF_FORM, PARAMETERS, SETUP, Form, bounds, value_refusal
 from core.program.model import (
     ArcSegment,
     BlendSegment,
@@ -30,7 +30,7 @@ from core.program.model import (
     Unread,
     changed,
 )
-from core.program.solve.block import NEEDED, solve_block
+from core.program.solve.block import NEEDED_FIELDS, solve_block
 from core.program.solve.reading import read_form, shared_findings
 from core.program.solve.solved import Origin, Solved, SolvedBlock
 from core.units import Kind, Unit, sentence, to_mm
@@ -277,7 +277,7 @@ def test_a_complete_start_has_no_findings():
     assert findings() == []
 
 
-@pytest.mark.parametrize("name", NEEDED)
+@pytest.mark.parametrize("name", NEEDED_FIELDS)
 def test_blanks_are_named(name):
     (text,) = findings(**{name: None})
     assert text.startswith(f"MISSING error {name}: ")
@@ -391,7 +391,7 @@ PARTS: dict[Form, Any] = {
 @pytest.mark.parametrize("unit", Unit)
 @pytest.mark.parametrize("form", PARTS)
 def test_a_number_is_known_exactly_when_its_field_accepts_it(form: Form, unit: Unit):
-    numbers = [field for field in TABLES[form] if field.kind not in (Kind.CHOICE, Kind.TEXT)]
+    numbers = [field for field in FIELDS_OF_FORM[form] if field.kind not in (Kind.CHOICE, Kind.TEXT)]
     assert numbers
     for field in numbers:
         edges = {

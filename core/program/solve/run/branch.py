@@ -19,7 +19,7 @@ from core.finding import Finding
 from core.geometry.oriented import Circle, Locus, OrientedLine, direction, line_through, meeting, normal, touch_point
 from core.geometry.piece import Point
 from core.program.solve.run.typed_run import Run
-from core.tolerance import ARC_RADII, INDEPENDENT, JOINED
+from core.tolerance import ARC_RADII, JOINED, MIN_INDEPENDENT_SINE
 
 Numbers = list[float | None]
 
@@ -429,7 +429,7 @@ class Branch:
             value = None if line is None else coordinates[other]
             if line is None or value is None or here is None:
                 continue
-            if abs(sin(line.heading - axis)) < INDEPENDENT and abs(value - here) <= ARC_RADII:
+            if abs(sin(line.heading - axis)) < MIN_INDEPENDENT_SINE and abs(value - here) <= ARC_RADII:
                 return True
         return False
 

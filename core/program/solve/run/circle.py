@@ -15,12 +15,12 @@ from typing import Final, NamedTuple
 from core.geometry.oriented import Locus, OrientedLine, direction, normal
 from core.geometry.piece import Point
 from core.program.solve.run.branch import Anchor, Branch
-from core.tolerance import ARC_RADII, GRAZE, INDEPENDENT
+from core.tolerance import ARC_RADII, GRAZE, MIN_INDEPENDENT_SINE
 
 Row = tuple[float, float, float, float]
 """a x + b y + e rho = f."""
 
-VANISHING: Final = 1e-9
+VANISHING_COEFFICIENT: Final = 1e-9
 """A coefficient as small as this is zero, where the others of its condition are about 1."""
 
 
@@ -78,7 +78,7 @@ def circles(branch: Branch, index: int) -> Circles | None:
     if len(basis) < 2 or not quadrics:
         return None
     along = _cross(basis[0], basis[1])
-    if abs(along[2]) < VANISHING:
+    if abs(along[2]) < VANISHING_COEFFICIENT:
         along = _agreed_sense(branch, index, along, cones)
     at = _point_on(basis, along)
     for quadric in quadrics:
@@ -210,10 +210,10 @@ def _independent(rows: list[Row]) -> list[Row]:
     """Return at most three independent rows, scaled to unit length; the clearly independent ones come first."""
     basis: list[Row] = []
     frame: list[Point3] = []
-    for least in (0.02, INDEPENDENT):
+    for least in (0.02, MIN_INDEPENDENT_SINE):
         for row in rows:
             size = hypot(row[0], row[1], row[2])
-            if len(basis) == 3 or size < VANISHING:
+            if len(basis) == 3 or size < VANISHING_COEFFICIENT:
                 continue
             a, b, e = row[0] / size, row[1] / size, row[2] / size
             rest = (a, b, e)
@@ -264,8 +264,8 @@ def _roots(quadric: Quadric, at: Point3, along: Point3) -> tuple[tuple[float, ..
         - quadric.at(*(p - d * size for p, d in zip(at, along, strict=True)))
     ) / (2.0 * size)
     c = quadric.at(*at)
-    if abs(a) < VANISHING:
-        if abs(b) < VANISHING * size:
+    if abs(a) < VANISHING_COEFFICIENT:
+        if abs(b) < VANISHING_COEFFICIENT * size:
             return None if abs(c) < ARC_RADII * size else ((), False)
         return (-c / b,), False
     middle, height = -b / (2.0 * a), c - b * b / (4.0 * a)

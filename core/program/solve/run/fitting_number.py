@@ -11,12 +11,12 @@ from math import remainder, tau
 from typing import Final
 
 from core.finding import Finding
-from core.program.solve.measured import ANGLES, measured
+from core.program.solve.measured import ANGLE_FIELDS, measured
 from core.program.solve.run import reasons
 from core.program.solve.run.search import GRAZE_SHIFT, search
 from core.program.solve.run.typed_run import Element, Run
 
-TRIED: Final = tuple(1.08**step for step in range(1, 60))
+TRIED_FACTORS: Final = tuple(1.08**step for step in range(1, 60))
 """The factors by which a radius is enlarged and reduced."""
 
 HALVINGS: Final = 48
@@ -60,7 +60,7 @@ def _by_the_rest(run: Run, finding: Finding) -> Finding:
     values = [value for answer in answers if (value := measured(answer.pieces[index]).get(name)) is not None]
     if not values:
         return finding
-    if name in ANGLES:
+    if name in ANGLE_FIELDS:
         nearest = min(values, key=lambda value: abs(remainder(value - typed, tau)))
         return reasons.angle_differs(run, index, name, typed, nearest)
     return reasons.length_differs(run, index, name, typed, min(values, key=lambda value: abs(value - typed)))
@@ -74,7 +74,7 @@ def _limit(run: Run, index: int) -> float | None:
     """Return the radius nearest to the typed one with which the run has an answer, None if no tried one has."""
     radius = run.elements[index].known["radius"]
     last = {1: radius, -1: radius}
-    for factor in TRIED:
+    for factor in TRIED_FACTORS:
         for sign in (1, -1):
             tried = radius * factor**sign
             if _fits(run, index, tried):

@@ -18,19 +18,19 @@ from typing import Final
 from core.geometry.piece import Arc, Point
 from core.program.solve.run.newton import ChainProblem, Numbers, newton_root, norm, slopes
 from core.program.solve.run.proof import objections
-from core.program.solve.run.search import SAME, Answer, same_pieces, search
+from core.program.solve.run.search import MAX_SAME_DISTANCE, Answer, same_pieces, search
 from core.program.solve.run.typed_run import Run
 
-STARTS: Final = 48
+STARTS_PER_PICK: Final = 48
 """Number of starts generated about a pick."""
 
 FARTHEST_PICK: Final = 0.4
 """Largest distance of an answer's joint from its pick, as a fraction of the run's size."""
 
-NEARBY: Final = 0.01
+NEARBY_SHARE: Final = 0.01
 """Distance of other picks that must give the same answer, as a fraction of the run's size."""
 
-SINGULAR: Final = 1e-7
+SINGULAR_PIVOT: Final = 1e-7
 """Smallest pivot, as a fraction of the largest, for data that determine an answer."""
 
 
@@ -61,7 +61,7 @@ def _nearest(answers: list[Answer], joint: int, pick: Point, size: float) -> int
     """Return the index of the answer nearest to the pick and to all picks nearby; None if they differ or it is far."""
     if not answers:
         return None
-    reach = NEARBY * size
+    reach = NEARBY_SHARE * size
     picks = [pick, *((pick[0] + reach * cos(turn), pick[1] + reach * sin(turn)) for turn in (0.0, pi / 2, pi, -pi / 2))]
     nearest = {min(range(len(answers)), key=lambda index: _distances(answers[index], joint, at)) for at in picks}
     taken = nearest.pop()
@@ -84,7 +84,7 @@ def _answers(problem: ChainProblem, joint: int, pick: Point) -> list[Answer]:
         chain = None if root is None else problem.chain(root)
         if root is None or chain is None or objections(problem.run, chain):
             continue
-        if any(same_pieces(chain, answer.pieces, SAME * 10) for answer in answers):
+        if any(same_pieces(chain, answer.pieces, MAX_SAME_DISTANCE * 10) for answer in answers):
             continue
         if _free(problem, root):
             return []
@@ -94,7 +94,7 @@ def _answers(problem: ChainProblem, joint: int, pick: Point) -> list[Answer]:
 
 def _starts(problem: ChainProblem, joint: int, pick: Point) -> Iterator[Numbers]:
     """Yield starts, most of which pass near the pick; the other numbers spread evenly (square roots of primes)."""
-    for count in range(STARTS):
+    for count in range(STARTS_PER_PICK):
         numbers = [_spread(count, index) * tau for index in range(problem.count)]
         for index, angular in enumerate(problem.angular):
             if not angular:
@@ -141,7 +141,7 @@ def _free(problem: ChainProblem, root: Numbers) -> bool:
         vectors.sort(key=norm)
         head = vectors.pop()
         length = norm(head)
-        if length <= SINGULAR * largest:
+        if length <= SINGULAR_PIVOT * largest:
             return True
         unit = [value / length for value in head]
         for vector in vectors:

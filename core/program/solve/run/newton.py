@@ -20,16 +20,16 @@ from core.program.solve.run.proof import Pieces, objections
 from core.program.solve.run.typed_run import Element, Run
 from core.tolerance import ARC_RADII, JOINED
 
-STEPS: Final = 30
+MAX_STEPS: Final = 30
 """Newton steps from one start."""
 
-HOPELESS: Final = (8, 0.1)
+HOPELESS_RESIDUAL: Final = (8, 0.1)
 """Steps after which a start is given up if its residual still exceeds this fraction of the run's size."""
 
-CONVERGED: Final = 1e-14
+CONVERGED_RESIDUAL: Final = 1e-14
 """Residual, as a fraction of the run's size, at which the steps stop."""
 
-ROOT: Final = 1e-11
+MAX_ROOT_RESIDUAL: Final = 1e-11
 """Largest residual of a root, as a fraction of the run's size."""
 
 Numbers = list[float]
@@ -204,10 +204,10 @@ def newton_root(problem: ChainProblem, numbers: Numbers) -> Numbers | None:
     """Return the root that damped Newton steps (Levenberg-Marquardt) reach from a start, None if they reach none."""
     missed = problem.residuals(numbers)
     size, damping = norm(missed), 1e-3
-    for count in range(STEPS):
-        if size <= CONVERGED * problem.scale:
+    for count in range(MAX_STEPS):
+        if size <= CONVERGED_RESIDUAL * problem.scale:
             return numbers
-        if count >= HOPELESS[0] and size > HOPELESS[1] * problem.scale:
+        if count >= HOPELESS_RESIDUAL[0] and size > HOPELESS_RESIDUAL[1] * problem.scale:
             return None
         columns = slopes(problem, numbers, missed)
         for _ in range(4):
@@ -220,7 +220,7 @@ def newton_root(problem: ChainProblem, numbers: Numbers) -> Numbers | None:
         else:
             break
         numbers, missed, size, damping = tried, after, norm(after), damping * 0.1
-    close = ARC_RADII if problem.surplus else ROOT * problem.scale
+    close = ARC_RADII if problem.surplus else MAX_ROOT_RESIDUAL * problem.scale
     return numbers if max(map(abs, missed), default=inf) <= close else None
 
 
@@ -270,7 +270,7 @@ def _eliminated(square: list[Numbers], right: Numbers) -> Numbers:
     return values
 
 
-POLISHED: Final = 1e-11
+POLISHED_RESIDUAL: Final = 1e-11
 """Largest residual, as a fraction of the run's size, that needs no polishing."""
 
 
@@ -278,7 +278,7 @@ def polished(run: Run, chain: Pieces) -> Pieces:
     """Restore digits that a nearly singular step has lost; return the same pieces if that does not improve it."""
     problem = ChainProblem(run, Branch(run))
     numbers = problem.numbers_of(chain)
-    if max(map(abs, problem.residuals(numbers)), default=0.0) <= POLISHED * problem.scale:
+    if max(map(abs, problem.residuals(numbers)), default=0.0) <= POLISHED_RESIDUAL * problem.scale:
         return chain
     root = newton_root(problem, numbers)
     better = None if root is None else problem.chain(root)

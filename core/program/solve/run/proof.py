@@ -11,13 +11,13 @@ from math import dist, hypot, pi, sin, tau
 from core.finding import Finding
 from core.geometry import construct
 from core.geometry.oriented import OrientedLine, direction
-from core.geometry.piece import SLIVER, Arc, Line, Piece, Point
-from core.program.fields import FARTHEST
-from core.program.solve.measured import ANGLES, heading_at, measured
+from core.geometry.piece import FULL_TURN_GAP, Arc, Line, Piece, Point
+from core.program.fields import LARGEST_LENGTH
+from core.program.solve.measured import ANGLE_FIELDS, heading_at, measured
 from core.program.solve.run import reasons
 from core.program.solve.run.branch import Branch
 from core.program.solve.run.typed_run import Element, Run
-from core.tolerance import AGREES, ARC_RADII, CLOSED, JOINED, LARGEST
+from core.tolerance import AGREES, ARC_RADII, CLOSED, JOINED, LARGEST_COORDINATE
 
 Pieces = tuple[Piece, ...]
 """A run's pieces, joined end to start; `objections` finds what disagrees with them."""
@@ -32,13 +32,13 @@ def chain_of(branch: Branch) -> tuple[Pieces | None, tuple[Finding, ...]]:
         # the end of an arc may have moved onto its circle
         start, end = pieces[-1].end if pieces else run.start, branch.joint(index + 1)
         assert end is not None
-        far = max(map(abs, end)) > FARTHEST
+        far = max(map(abs, end)) > LARGEST_LENGTH
         piece: Piece | None
         if element.turn:
             center = branch.center(index)
             assert center is not None
             piece, trouble = _arc(run, index, start, end, center)
-            far = far or max(map(abs, center)) > LARGEST
+            far = far or max(map(abs, center)) > LARGEST_COORDINATE
         else:
             piece, trouble = _line(run, index, start, end, branch)
         if far:
@@ -85,7 +85,7 @@ def _full(element: Element, start: Point) -> bool:
     """True if an arc that ends at its start is typed as a full circle: by SWEEP ANGLE, or with center and end."""
     known = element.known
     if "sweep" in known:
-        return known["sweep"] >= tau - SLIVER
+        return known["sweep"] >= tau - FULL_TURN_GAP
     typed = all(name in known for name in ("x_end", "y_end", "x_center", "y_center"))
     return typed and dist(start, (known["x_end"], known["y_end"])) <= JOINED
 
@@ -113,7 +113,7 @@ def _field_objections(run: Run, index: int, element: Element, piece: Piece) -> l
         typed = element.known.get(name)
         if typed is None:
             continue
-        if name in ANGLES:
+        if name in ANGLE_FIELDS:
             off = abs(typed - actual) if name == "sweep" else typed - actual
             if not _same_heading(off, _reach(piece)):
                 findings.append(reasons.angle_differs(run, index, name, typed, actual))

@@ -15,7 +15,7 @@ from core.program.solve.run.proof import Pieces, chain_of
 from core.program.solve.run.steps import next_branches
 from core.program.solve.run.typed_run import Run
 
-SAME: Final = 1e-6
+MAX_SAME_DISTANCE: Final = 1e-6
 """Millimeters within which two answers count as the same."""
 
 MOST_BRANCHES: Final = 512
@@ -78,7 +78,7 @@ def search(run: Run) -> Search:
             if chain is not None and not objections:
                 exact = run.missing == 0 and not any(branch.grazes)
                 chain = polished(run, chain) if exact else chain
-                if not any(same_pieces(chain, other.pieces, SAME) for other in answers):
+                if not any(same_pieces(chain, other.pieces, MAX_SAME_DISTANCE) for other in answers):
                     answers.append(Answer(_choice_of(branch), chain))
             else:
                 dropped.append((0 if chain is not None else 1, len(objections), objections[0]))

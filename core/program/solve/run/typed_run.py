@@ -10,10 +10,10 @@ from typing import Final
 from core.geometry.oriented import OrientedLine
 from core.geometry.piece import Point, Turn
 
-LONGEST: Final = 12
+MAX_RUN_LENGTH: Final = 12
 """The largest number of LINEs and ARCs that are solved together."""
 
-POINT: Final = frozenset(("point_x", "point_y", "point_dist"))
+POINT_FIELDS: Final = frozenset(("point_x", "point_y", "point_dist"))
 """The data that count as one together, as far as they give a point."""
 
 
@@ -51,7 +51,7 @@ class Element:
     def missing(self) -> int:
         """The number of values that it needs beside its start and its typed data; negative if more are typed."""
         relations = sum(value is not None for value in (self.point, self.parallel, self.link))
-        return (3 if self.turn else 2) - len(self.known.keys() - POINT) - relations
+        return (3 if self.turn else 2) - len(self.known.keys() - POINT_FIELDS) - relations
 
 
 @dataclass(frozen=True)
