@@ -128,8 +128,8 @@ def center_path_program(
     """Return the NC text of all jobs, or the findings that forbid it.
 
     `name` is the program's name and `part` the PART NAME; both become comments at the top, whatever they contain.
-    `override` counts only if it is the sentence `core.output.objections.OVERRIDE_PHRASE`, and only against findings on a path
-    that is known; the header then says what was overridden.
+    `override` counts only if it is the sentence `core.output.objections.OVERRIDE_PHRASE`, and only against findings on
+    a path that is known; the header then says what was overridden.
     """
     grid = Grid(unit)
     errors = posting_errors(jobs, grid, override=override)
