@@ -52,6 +52,15 @@ def test_the_largest_gap_that_was_joined_is_said_once():
     assert finding.at == pytest.approx(place, abs=2e-6)
 
 
+@pytest.mark.parametrize("first", range(7))
+def test_the_largest_gap_is_said_wherever_the_contour_starts(first: int) -> None:
+    pieces = list(nearly_tangent(2e-6))
+    (finding,) = best_path(Path.from_pieces([*pieces[first:], *pieces[:first]]), Side.LEFT, 10.0, closed=True).findings
+    assert finding.lengths == pytest.approx((1e-6, 0.0), abs=1e-10)
+    # at one of the arc's two ends
+    assert finding.segment in ((0 - first) % 7 + 1, (1 - first) % 7 + 1)
+
+
 @pytest.mark.parametrize("miss", [0.0, *(sign * gap for gap in (1e-9, 1e-8, 9.9e-8, 1e-6) for sign in (-1, 1))])
 def test_a_last_end_that_misses_start_by_a_rounding_leaves_no_side_uncut(miss):
     corners = [(0.0, 0.0), (100.0, 0.0), (100.0, 60.0), (0.0, 60.0), (miss, 0.0)]
