@@ -77,7 +77,7 @@ def tmp_path() -> Iterator[Path]:
 @pytest.fixture(autouse=True)
 def _patient(monkeypatch: pytest.MonkeyPatch) -> None:
     """Wait long for the disk, so that a busy machine does not change the results."""
-    monkeypatch.setattr("app.file_actions.DISK", 20.0)
+    monkeypatch.setattr("app.file_actions.DISK_SECONDS", 20.0)
 
 
 @pytest.fixture(autouse=True)

@@ -49,7 +49,7 @@ class Folder:
 @pytest.fixture
 def disk(monkeypatch: pytest.MonkeyPatch) -> Iterator[Folder]:
     """A disk whose fsync hangs on request."""
-    monkeypatch.setattr(file_actions, "DISK", 0.05)
+    monkeypatch.setattr(file_actions, "DISK_SECONDS", 0.05)
     disk, fsync = Folder(), os.fsync
 
     def slow(handle: int) -> None:

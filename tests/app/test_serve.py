@@ -160,7 +160,7 @@ async def test_a_requested_size_is_limited(monkeypatch: pytest.MonkeyPatch) -> N
 
 
 async def test_a_program_ends_when_its_page_reads_nothing(monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(web_children, "UNREAD", 0.5)
+    monkeypatch.setattr(web_children, "MAX_UNREAD_SECONDS", 0.5)
     async with served(monkeypatch, python(FLOOD)) as site:
         reader, writer = await asyncio.open_connection("127.0.0.1", int(site.root.rpartition(":")[2]), limit=1024)
         writer.write(handshake(site.root))
@@ -171,7 +171,7 @@ async def test_a_program_ends_when_its_page_reads_nothing(monkeypatch: pytest.Mo
 
 
 async def test_a_program_that_reads_no_keys_is_ended(monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(web_children, "UNREAD", 0.5)
+    monkeypatch.setattr(web_children, "MAX_UNREAD_SECONDS", 0.5)
     deaf = "import time; print('__GANGLION__', flush=True); time.sleep(60)"
     async with served(monkeypatch, python(deaf)) as site:
         page = await site.page()

@@ -80,7 +80,7 @@ def test_a_never_saved_program_being_typed_counts_as_open(state: Path, part: Pat
 
 def test_a_hanging_file_does_not_delay_the_others(part: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     never, real = Event(), Path.stat
-    monkeypatch.setattr(survey, "FILE", 0.05)
+    monkeypatch.setattr(survey, "FILE_SECONDS", 0.05)
     monkeypatch.setattr(
         Path, "stat", lambda path, **rest: never.wait(5) if path.name == "a.toml" else real(path, **rest)
     )
@@ -97,7 +97,7 @@ def test_opening_a_hanging_file_is_reported(state: Path, part: Path, monkeypatch
     from tests.app.documents.typist import service
 
     never = Event()
-    monkeypatch.setattr(module, "FILE", 0.05)
+    monkeypatch.setattr(module, "FILE_SECONDS", 0.05)
     monkeypatch.setattr(module, "read_file", lambda *_: never.wait(5))
     opened = service(state).open(part)
     never.set()

@@ -84,7 +84,7 @@ async def test_random_keys_sent_at_once_act_as_when_sent_one_by_one():
 
 async def test_a_slow_machine_keeps_the_keys_in_their_fields(monkeypatch):
     """Each turn of the event loop is so slow that a key takes longer than the wait for it."""
-    monkeypatch.setattr(key_order, "LOOK", 0.01)
+    monkeypatch.setattr(key_order, "CHECK_SECONDS", 0.01)
     async with operator() as user:
         loop, end = asyncio.get_running_loop(), monotonic() + 4.0
 
