@@ -81,7 +81,7 @@ def test_written_out_depths_are_judged_with_the_lines_of_the_first() -> None:
 
 
 def test_a_gouge_in_the_seventh_pass_only_is_reported() -> None:
-    """The notch goes through the wall of all other laps, so all of the cutter is behind that wall."""
+    """The notch goes through the wall of all other laps; its own sides end the depth at the cutter's radius."""
     lap = "G1 X0 Y30\nX40\nY0\nX0"
     notched = lap.replace("X40", "X20\nY22\nX22\nY30\nX40")
     laps = [lap] * 6 + [notched] + [lap] * 3
@@ -90,8 +90,8 @@ def test_a_gouge_in_the_seventh_pass_only_is_reported() -> None:
     )
     seventh = range(6 + 6 * 4, 6 + 6 * 4 + 8)
     assert deepest_gouge(even)[0] < 0.1
-    assert deepest_gouge(cut) == (6.0, seventh[2])
-    assert {gouge.surface_number for gouge in cut[0].verdict.gouges if gouge.depth == 6.0} == {7.0}
+    assert deepest_gouge(cut) == (3.0, seventh[2])
+    assert {gouge.surface_number for gouge in cut[0].verdict.gouges if gouge.depth == 3.0} == {7.0}
 
 
 def test_a_pass_that_differs_in_one_piece_is_kept() -> None:

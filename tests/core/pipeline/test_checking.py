@@ -216,7 +216,7 @@ ARC = b"G20\nF9.\nG0 X1.\nG3 X2. Y1. I0. J1.\n%sM30\n"
 
 def test_the_machine_readable_answer_is_in_program_units() -> None:
     row = answer(ARC % b"G33 X9.\n", asked("fanuc:a"))
-    text = "cutcomp does not support G33, and the path after it would be wrong."
+    text = "cutcomp does not support G33. Write out the moves that it makes or changes."
     finding = {"rule": "BEYOND", "severity": "error", "line": 5, "column": 1, "text": text, "lengths": []}
     rapid: dict[str, object] = {"type": "line", "mode": "rapid", "y": 0.0, "z": 0.0, "feed": None}
     arc = {"type": "arc", "mode": "feed", "line": 4, "x": 2.0, "y": 1.0, "z": 0.0, "feed": 9.0}
