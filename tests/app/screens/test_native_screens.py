@@ -305,7 +305,9 @@ async def test_every_screen_opens_at_every_size():
         assert load(example("pocket")) == user.session.program
 
 
-async def test_closed_screens_are_freed():
+async def test_closed_screens_are_freed(monkeypatch):
+    # the timer that paints a screen holds it until its period ends
+    monkeypatch.setattr("textual.screen.UPDATE_PERIOD", 0.01)
     async with operator() as user:
         for open_key, close_key in (("f6", "f8"), ("f7", "f8"), ("question_mark", "escape")):
             screens = []
