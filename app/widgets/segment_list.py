@@ -25,21 +25,21 @@ COLUMNS = (
     ("x", "X END", 9),
     ("y", "Y END", 9),
     ("feed", "FEED", 6),
-    ("fate", "", 12),
+    ("outcome", "", 12),
 )
 """Key, heading and width of each column."""
-FATES = {"gouge": "$c-gouge", "uncut": "$c-uncut", "deleted": "$c-deleted", "type": "$c-warn"}
+OUTCOME_COLORS = {"gouge": "$c-gouge", "uncut": "$c-uncut", "deleted": "$c-deleted", "type": "$c-warn"}
 
 
 class SegmentRow(NamedTuple):
-    """The texts of a row's columns; `fate` is gouge, uncut, deleted, type (values are missing) or empty."""
+    """The texts of a row's columns; `outcome` is gouge, uncut, deleted, type (values are missing) or empty."""
 
     number: str
     type: str
     x: str
     y: str
     feed: str
-    fate: str
+    outcome: str
 
 
 class SegmentList(RowTable[Text]):
@@ -76,7 +76,7 @@ class SegmentList(RowTable[Text]):
         else:
             for old, row in zip(before, rows, strict=True):
                 for (key, _, _), text, old_text in zip(COLUMNS, row, old, strict=True):
-                    if text != old_text or (row.fate != old.fate and key == "type"):
+                    if text != old_text or (row.outcome != old.outcome and key == "type"):
                         self.update_cell(row.number, key, self._cell(row, key))
         self._rows = rows
         if self.cursor_row != session.place.segment:
@@ -84,16 +84,16 @@ class SegmentList(RowTable[Text]):
 
     def _cell(self, row: SegmentRow, key: str) -> Text:
         text = str(getattr(row, key))
-        if key == "fate":
+        if key == "outcome":
             return self._outcome_cell(text)
         if key == "type":
-            return Text.assemble(" ", (text, "strike dim" if row.fate == "deleted" else ""))
+            return Text.assemble(" ", (text, "strike dim" if row.outcome == "deleted" else ""))
         return Text(text, justify="right")
 
     def _outcome_cell(self, outcome: str) -> Text:
         marks = MARKS_OF_CHARACTERS[self.characters]
         sign = {"gouge": marks.gouge, "uncut": marks.warning, "deleted": marks.deleted, "type": "?"}.get(outcome, "")
-        color = self.app.theme_variables.get(FATES.get(outcome, "")[1:], "")
+        color = self.app.theme_variables.get(OUTCOME_COLORS.get(outcome, "")[1:], "")
         return Text(f"  {sign} {outcome}".rstrip(), color.removeprefix("ansi_"))
 
 

@@ -10,15 +10,12 @@ import numpy as np
 
 from core.finding import Finding, Severity
 from core.geometry.path import Path
-from core.tolerance import GOUGE, STOCK
+from core.tolerance import GOUGE, SMALLEST_SHOWN, STOCK
 from core.verify.air_cuts import AirCut
 from core.verify.verdict import Gouge, OverRun, Uncut, UnevenArc, Verdict
 
 LAST_DIGIT: Final = 0.00254
 """Millimeters: the last digit of a form in inches."""
-
-SHOWN: Final = LAST_DIGIT / 2.0
-"""Lengths below this would be displayed as zeros."""
 
 MAX_NAMED_CORNERS: Final = 6
 """Corners of one kind that are named; the rest are only counted."""
@@ -105,7 +102,7 @@ def or_more(gouge: Gouge, radius: float) -> str:
 
 def _gouge(gouge: Gouge, names: Names, radius: float) -> Finding:
     """Return the finding on a gouge: its segment is the surface's, `lengths` holds the length of path that gouges."""
-    fine = gouge.depth < SHOWN
+    fine = gouge.depth < SMALLEST_SHOWN
     depth = "less than {1}" if fine else "{value}" + or_more(gouge, radius)
     move = names(gouge.path_piece, gouge.path_number)
     return Finding(
@@ -209,7 +206,7 @@ def _corners(corners: Sequence[Uncut]) -> Finding:
     )
     more = f" and {len(corners) - MAX_NAMED_CORNERS} more" if len(corners) > MAX_NAMED_CORNERS else ""
     areas = [corner.area for corner in corners if corner.area is not None]
-    thick = "{0}" if corners[0].thickness >= SHOWN else "less than {1}"
+    thick = "{0}" if corners[0].thickness >= SMALLEST_SHOWN else "less than {1}"
     return Finding(
         "UNCUT",
         Severity.INFO,
@@ -231,7 +228,7 @@ def _uncut(uncut: Uncut, surface: Path) -> Finding:
     if isinf(uncut.thickness):
         text = f"UNCUT: nothing of {where} is cut. There is no path."
     else:
-        thick = "{0}" if uncut.thickness >= SHOWN else "less than {1}"
+        thick = "{0}" if uncut.thickness >= SMALLEST_SHOWN else "less than {1}"
         text = f"UNCUT {thick} thick, {{value}} long, {where} at X {{x}} Y {{y}}."
     return Finding(
         "UNCUT",

@@ -129,17 +129,17 @@ def _without_over_run(surface: Surface, *, leads: Leads) -> Surface | None:
     if not all(_is_clear(run, left, surface.side) for run in runs):
         return None
     # a lead that is a move of its own is programmed on purpose
-    own_in = begin > 0 and (walls.arcs[0] or first <= stations[begin] + JOINED)
-    own_out = end < len(walls) - 1 and (walls.arcs[-1] or last >= stations[end + 1] - JOINED)
+    lead_in_is_move = begin > 0 and (walls.arcs[0] or first <= stations[begin] + JOINED)
+    lead_out_is_move = end < len(walls) - 1 and (walls.arcs[-1] or last >= stations[end + 1] - JOINED)
     if lead_in > JOINED:
-        share = 0.0 if own_in else lead_in / float(stations[begin + 1])
+        share = 0.0 if lead_in_is_move else lead_in / float(stations[begin + 1])
     else:
-        share = 0.0 if own_out else lead_out / float(stations[-1] - stations[end])
+        share = 0.0 if lead_out_is_move else lead_out / float(stations[-1] - stations[end])
     first_number, last_number = surface.path.numbers[walls.rows[[begin, end]]].tolist()
     doubtful = len(runs) == 1 and share > LONG_LEAD
     rows_in, rows_out = range(begin, -1, -1), range(end, len(walls))
     left_in, left_out = first - float(stations[begin]), float(stations[end + 1]) - last
-    most_in, most_out = (LONG_LEAD if is_move else MAX_LEAD_SHARE for is_move in (own_out, own_in))
+    most_in, most_out = (LONG_LEAD if is_move else MAX_LEAD_SHARE for is_move in (lead_out_is_move, lead_in_is_move))
     long = _may_be_walls(walls, rows_in, left_in, most_in) | _may_be_walls(walls, rows_out, left_out, most_out)
     if max(lead_in, lead_out) > MAX_LEAD_SHARE * (last - first) or long:
         long = set(rows_in if left_in > JOINED else rows_in[1:]) if lead_in > JOINED else set()

@@ -172,9 +172,9 @@ def _pass_over(state: State, block: Block, number: int, height: float | None, *,
     state.waiting.flush()
     state.last = None
     severity, template = Severity.WARNING, NOT_JUDGED
-    if number in _DRILLING_CYCLES or number in _TAPPING_CYCLES or number in state.told_cycles:
+    if number in _DRILLING_CYCLES or number in _TAPPING_CYCLES or number in state.reported_cycles:
         severity, template = Severity.INFO, SKIPPED_TEXT
-    state.told_cycles.add(number)
+    state.reported_cycles.add(number)
     if number in _RETURNING_CYCLES and not pattern:
         state.tell(severity, "CYCLE", template.format(number, "it ends where it began"), block)
         return

@@ -88,7 +88,7 @@ class State:
     applied: int = 0
     offset: float = 0.0
     ahead: int = 0
-    told_cycles: set[int] = field(default_factory=set)
+    reported_cycles: set[int] = field(default_factory=set)
     last: Element | None = None
 
     def stop(self, code: str, text: str, block: Block, name: str = "", *lengths: float) -> NoReturn:

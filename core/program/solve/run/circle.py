@@ -56,7 +56,7 @@ class Quadric(NamedTuple):
 class Circles(NamedTuple):
     """The circles (center, rho) that fit, in a fixed order; `grazing` if two have merged into one."""
 
-    found: tuple[tuple[Point, float], ...]
+    fitting: tuple[tuple[Point, float], ...]
     grazing: bool = False
 
 

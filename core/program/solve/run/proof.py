@@ -61,7 +61,7 @@ def _line(run: Run, index: int, start: Point, end: Point, branch: Branch) -> tup
     tx, ty = direction(heading)
     ahead = vector[0] * tx + vector[1] * ty
     if ahead < 0.0:
-        return Line(start, end), [reasons.behind(run, index, -ahead, heading)]
+        return Line(start, end), [reasons.line_runs_backward(run, index, -ahead, heading)]
     return Line(start, end), []
 
 

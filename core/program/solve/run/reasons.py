@@ -40,7 +40,7 @@ def _plain_angle(angle: float) -> str:
     return f"{degrees(angle) % 360.0:.3f}".rstrip("0").rstrip(".")
 
 
-def behind(run: Run, index: int, length: float, heading: float) -> Finding:
+def line_runs_backward(run: Run, index: int, length: float, heading: float) -> Finding:
     """A line would have to run against its heading."""
     element = run.elements[index]
     field = "angle" if "angle" in element.known else None

@@ -86,7 +86,7 @@ def _arcs(branch: Branch) -> Iterator[tuple[int, Circles]]:
 def _single_circle(branch: Branch) -> Ways | None:
     """Set a circle that is the only one that fits."""
     for index, answer in _arcs(branch):
-        if len(answer.found) == 1 and not answer.grazing:
+        if len(answer.fitting) == 1 and not answer.grazing:
             return _circle_ways(branch, index, answer)
     return None
 
@@ -99,12 +99,12 @@ def _circle(branch: Branch) -> Ways | None:
 
 
 def _circle_ways(branch: Branch, index: int, answer: Circles) -> Ways:
-    if not answer.found:
+    if not answer.fitting:
         raise DeadEnd(reasons.no_circle(branch, index))
     turn = branch.run.elements[index].turn
-    single = len(answer.found) == 1 and not answer.grazing
+    single = len(answer.fitting) == 1 and not answer.grazing
     ways = []
-    for root, (center, rho) in enumerate(answer.found):
+    for root, (center, rho) in enumerate(answer.fitting):
         if rho * turn <= JOINED:
             continue
         way = branch.copy() if single else branch.chosen(root, grazing=answer.grazing)
