@@ -219,5 +219,6 @@ def remedy_for_gouge(block: DerivedBlock, program: Program) -> Finding | None:
     fits = largest_tool(setup)
     if fits is None:
         return None
-    text = f"Block {block.number}: the tool is too big; the largest that does not gouge: {{value}}.{fits.left_uncut}"
+    largest = f"the largest that does not gouge: {{value}}, with look-ahead {fits.value}."
+    text = f"Block {block.number}: the tool is too big; {largest}{fits.left_uncut}"
     return Finding("TOOL_FITS", Severity.INFO, text, field="tool", value=fits.diameter, lengths=fits.lengths)

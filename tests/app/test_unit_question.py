@@ -163,4 +163,7 @@ def test_the_largest_tool_is_named_rounded_down_when_no_look_ahead_is_clean() ->
     part = replace(slot, unit=Unit.IN, parameters=parameters, tools=(Tool(1, "END MILL", Number(0.5)),))
     remedy = remedy_for_gouge(derive(part).block(1), part)
     assert remedy is not None
-    assert sentence(remedy, Unit.IN) == "Block 1: the tool is too big; the largest that does not gouge: 0.3937."
+    assert (
+        sentence(remedy, Unit.IN)
+        == "Block 1: the tool is too big; the largest that does not gouge: 0.3937, with look-ahead 1."
+    )

@@ -195,10 +195,15 @@ def test_a_gouge_that_no_look_ahead_mends_names_the_largest_tool():
     (gouging,) = derive(part).blocks
     remedy = remedy_for_gouge(gouging, part)
     assert (remedy.code, remedy.field) == ("TOOL_FITS", "tool")
-    assert remedy.text == "Block 1: the tool is too big; the largest that does not gouge: {value}."
+    text = "Block 1: the tool is too big; the largest that does not gouge: {value}, with look-ahead 3."
+    assert remedy.text == text
     for diameter, gouges in ((remedy.value / 25.4, False), (remedy.value / 25.4 + 0.001, True)):
         other = replace(part, tools=(Tool(1, diameter=Number(diameter)),))
         assert ("GOUGE" in [finding.code for finding in derive(other).blocks[0].findings]) is gouges
+    for lookahead, gouges in ((2, True), (3, False)):
+        typed = replace(part.blocks[0], lookahead=Number(lookahead))
+        fitting = replace(part, blocks=(typed,), tools=(Tool(1, diameter=Number(remedy.value / 25.4)),))
+        assert ("GOUGE" in [finding.code for finding in derive(fitting).blocks[0].findings]) is gouges
     whole = program(block(MID_SIDE_SQUARE, CutterComp.LEFT))
     assert remedy_for_gouge(derive(whole).blocks[0], whole) is None
 
