@@ -409,12 +409,13 @@ def _with_leads(
 def _center_path(run: ControlRun, stretch: Stretch) -> Path:
     """Return the tool's center path without repeated passes; if the tool stands still, a line of no length.
 
-    Of a center path with wear it is the programmed path, as with no wear, and the move that leaves it.
+    Of a center path with wear it is the programmed path, as with no wear, and the move that leaves it, if one does.
     """
     if stretch.wear:
         programmed = stretch.programmed.path(stretch.plane)
-        way_out = run.moves.part(stretch.last - 2, stretch.last).path(stretch.plane)
-        return without_repeats(programmed if run.stops_within(stretch) else joined([programmed, way_out]))
+        way_out = run.moves.part(stretch.last - 2, stretch.last)
+        leaves = not run.stops_within(stretch) and way_out.lines[-1] != stretch.programmed.lines[-1]
+        return without_repeats(joined([programmed, way_out.path(stretch.plane)]) if leaves else programmed)
     moves = run.moves.part(stretch.first, stretch.last)
     center = without_repeats(moves.path(stretch.plane))
     if len(center) or not len(moves):

@@ -180,7 +180,7 @@ def _with_rest_of_contour(stopped: ControlRun, whole: ControlRun) -> ControlRun:
     points = longer.programmed.points
     if stretch.changes or longer.changes or not np.array_equal(points[:known], stretch.programmed.points):
         return stopped
-    other_heights = np.flatnonzero(points[known:, 2] != points[known - 1, 2])
+    other_heights = np.flatnonzero(points[known:, 2] != points[:known, 2].min())
     rows = known + int(other_heights[0]) if len(other_heights) else len(points)
     longer = replace(stretch, programmed=longer.programmed.part(0, rows), exit=max(rows - len(points) + longer.exit, 0))
     return replace(stopped, stretches=(*stopped.stretches[:-1], longer))

@@ -179,6 +179,14 @@ def test_a_wall_that_is_cut_before_the_alarm_that_precedes_it_is_gouged(control:
     assert gouge.value == pytest.approx(4.0)
 
 
+@pytest.mark.parametrize("control", ["fanuc:a", "haas:a", "linuxcnc", "rosettacnc:normal"])
+def test_what_a_run_passes_over_after_its_alarm_is_no_wall(control: str) -> None:
+    text = "G21 G17 G90 G40 F200\nT1 M6\nG0 X-20. Y-20.\nG1 Z-5.\nG41 D1 X0. Y-10.\nY40.\nX60.\nY0.\nX-10.\nG0 Z50.\n"
+    run = ran(f"{text}X100. Y-10.\nG1 Z-5.\nY40.\nX160.\nG40 Y60.\nM30\n", control, t1=10.0)
+    assert run.stopped_at is not None
+    assert not {finding.code for finding in judged_findings(judge_run(run))} & {"GOUGE", "WRONG-SIDE"}
+
+
 CENTER_PATH = (
     "G21 G17 G90 G40 F400\nT1 M6\nG0 X{start} Y20.\nG1 Z-5.\nG41 D1 X-15. Y10.\nG3 X-5. Y20. I0 J10.\nG1 Y40.\n"
     "G2 X0 Y45. I5. J0\nG1 X60.\nG2 X65. Y40. I0 J-5.\nG1 Y0\nG2 X60. Y-5. I-5. J0\nG1 X0\nG2 X-5. Y0 I0 J5.\n"
@@ -193,6 +201,15 @@ WEAR_CONTROLS = ["fanuc:a", "fanuc:b", "haas:a-yasnac", "linuxcnc", "rosettacnc:
 @pytest.mark.parametrize("diameter", [0.02, -0.02])
 def test_a_center_path_with_wear_is_clean(diameter: float, control: str) -> None:
     run = ran(CENTER_PATH.format(start=-25, end=-25), control, t1=diameter)
+    assert run.stopped_at is None
+    assert not [finding for finding in judged_findings(judge_run(run)) if finding.severity is not Severity.INFO]
+
+
+@pytest.mark.parametrize("control", ["fanuc:a", "fanuc:b", "haas:a-yasnac"])
+@pytest.mark.parametrize("diameter", [0.02, -0.02])
+def test_a_center_path_with_wear_that_no_move_leaves_is_clean(diameter: float, control: str) -> None:
+    text = CENTER_PATH.replace("G40 G1 X{end} Y20.", "G40\nG28 G91 Z0").format(start=-25)
+    run = ran(text, control, t1=diameter)
     assert run.stopped_at is None
     assert not [finding for finding in judged_findings(judge_run(run)) if finding.severity is not Severity.INFO]
 
