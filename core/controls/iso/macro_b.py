@@ -186,6 +186,8 @@ _FUNCTIONS: Final[Mapping[str, Callable[[float], float]]] = MappingProxyType(
 _FUNCTION: Final = re.compile(r"([A-Z]{2,5})\[")
 _LENGTH_LETTERS: Final = frozenset("IJKQRUVWXYZ")
 """The letters of words that are lengths."""
+INCREMENTS: Final = MappingProxyType({"20": 0.0001, "21": 0.001})
+"""The least increment of a length in the unit that each G code chooses."""
 
 
 class MacroReader(ExpressionReader):
@@ -364,7 +366,9 @@ def words_of(
                 # the point of a number that is written with one still counts
                 point = "." if "." in text[begin : reader.at] and "." not in number else ""
                 words.append(Word(first, f"{number}{point}", line.column(begin)))
-                macro_call = macro_call or (first == "G" and number in ("65", "66"))
+                if first == "G":
+                    macro_call = macro_call or number in ("65", "66")
+                    reader.increment = INCREMENTS.get(number, reader.increment)
         else:
             raise FaultError("WORD", not_a_word(text[begin:]), begin)
     return words, corner, skip

@@ -17,7 +17,14 @@ from core.controls.control_run import NOT_RUN_TEXT, Log
 from core.controls.iso.dialect import Dialect
 from core.controls.iso.expressions import COMMENT_GAP, CompactText, FaultError
 from core.controls.iso.flow import Call, Flow, ProgramLibrary, o_words_of
-from core.controls.iso.macro_b import AlarmByProgramError, MacroReader, Variables, set_variables, words_of
+from core.controls.iso.macro_b import (
+    INCREMENTS,
+    AlarmByProgramError,
+    MacroReader,
+    Variables,
+    set_variables,
+    words_of,
+)
 from core.controls.iso.macro_b_machine import MacroMachine
 from core.controls.iso.reader import (
     Block,
@@ -521,7 +528,7 @@ class MacroFlow(Flow):
             line = line._replace(text=f"O{line.text[1:]}")
         if row in self.begins and (name := re.match(r"O?<[^>]*>", line.text)):
             start = name.end()
-        increment = 0.001 if self.machine.unit is Unit.MM else 0.0001
+        increment = INCREMENTS["21" if self.machine.unit is Unit.MM else "20"]
         try:
             words, corner, skip = words_of(line, self.variables, increment, start)
         except FaultError as fault:

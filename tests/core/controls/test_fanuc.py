@@ -419,6 +419,11 @@ def test_a_calculated_length_is_rounded_to_the_least_increment(control: str, uni
     assert lines_and_ends(run) == [(x, y)]
 
 
+def test_a_unit_beside_a_calculated_length_gives_the_increment() -> None:
+    run = ran("G21\n#1=1.23456\nG20 G0 X#1\nG21 X#1\nM30")
+    assert lines_and_ends(run) == [(1.2346, 0.0), (pytest.approx(1.235 / 25.4), 0.0)]
+
+
 def test_an_argument_of_a_macro_call_is_not_rounded() -> None:
     assert values("O1\n#1=1.23456\nG65 P9 X#1 I[1/8192]\nM30\nO9\n#100=#24\n#101=#4\nM99") == {
         100: 1.23456,
