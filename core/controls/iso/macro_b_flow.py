@@ -15,7 +15,7 @@ from typing import Final, NamedTuple, NoReturn
 
 from core.controls.control_run import NOT_RUN_TEXT, Log
 from core.controls.iso.dialect import Dialect
-from core.controls.iso.expressions import COMMENT_GAP, CompactText, FaultError
+from core.controls.iso.expressions import COMMENT_GAP, CompactText, FaultError, plain
 from core.controls.iso.flow import Call, Flow, ProgramLibrary, o_words_of
 from core.controls.iso.macro_b import (
     INCREMENTS,
@@ -674,10 +674,10 @@ class MacroFlow(Flow):
             (word, *place), count = self.no_point[0], len(self.no_point)
             word = "".join(word.split())
             value = float(word[1:])
-            least = f"{value / 1000:g} mm" if self.machine.unit is Unit.MM else f"{value / 10000:g} in"
+            least = f"{plain(value / 1000)} mm" if self.machine.unit is Unit.MM else f"{plain(value / 10000)} in"
             which = f"{count} lengths, the first one here, have" if count > 1 else "This length has"
             message = (
-                f"{which} no decimal point. cutcomp takes {word} as {value:g} units; "
+                f"{which} no decimal point. cutcomp takes {word} as {plain(value)} units; "
                 f"{self.dialect.without_point} it is {least}."
             )
             self.log.tell(Severity.WARNING, "FN-POINT", message, *place)
