@@ -370,9 +370,9 @@ def _judge_part(
 def _below_later_pass(run: ControlRun, stretch: Stretch, roughing: RoughingPass) -> Path:
     """Return the center path of a roughing pass below the later pass, which leaves the wall there; empty if none is."""
     moves = run.moves.part(stretch.first, stretch.last)
-    later = np.flatnonzero(moves.lines == roughing.later_numbers[0])[:1]
-    heights = moves.points[: later[0], 2] if len(later) else np.empty(0)
-    low = np.flatnonzero(heights < moves.points[later, 2] - ON_PATH)
+    heights, starts = moves.points[:, 2], np.flatnonzero(np.isin(moves.lines, roughing.later_starts))
+    later = starts[np.argmin(heights[starts])] if len(starts) else 0
+    low = np.flatnonzero(heights[:later] < heights[later] - ON_PATH)
     return moves.part(int(low[0]), int(low[-1]) + 1).path(stretch.plane) if len(low) else EMPTY
 
 

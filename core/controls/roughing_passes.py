@@ -26,11 +26,15 @@ MIN_POINTS: Final = 4
 
 @dataclass(frozen=True, slots=True)
 class RoughingPass:
-    """A pass and the later one that cuts it away, by the numbers of their first and last moves; `rows` are its own."""
+    """A pass and the later one that cuts it away, by the numbers of their first and last moves; `rows` are its own.
+
+    `later_starts` are the numbers of the first moves of the later pass and of its repeats, at other heights perhaps.
+    """
 
     rows: RowRange
     numbers: tuple[float, float]
     later_numbers: tuple[float, float]
+    later_starts: tuple[float, ...]
 
 
 def without_roughing_passes(
@@ -45,12 +49,13 @@ def without_roughing_passes(
     regions = [_region(path, rows) for rows in passes]
     kept, roughing = list[RowRange](), list[RoughingPass]()
     for index, rows in enumerate(passes):
-        rest = zip(passes[index + 1 :], regions[index + 1 :], strict=True)
-        later = next((other for other, region in rest if _cuts_away(regions[index], region, side, radius)), None)
+        rest = list(zip(passes[index + 1 :], regions[index + 1 :], strict=True))
+        later = next((each for each in rest if _cuts_away(regions[index], each[1], side, radius)), None)
         if later is None:
             kept.append(rows)
         else:
-            roughing.append(RoughingPass(rows, _ends(path, rows), _ends(path, later)))
+            starts = tuple(_ends(path, other)[0] for other, region in rest if region is not None and region == later[1])
+            roughing.append(RoughingPass(rows, _ends(path, rows), _ends(path, later[0]), starts))
     return (tuple(kept), tuple(roughing)) if roughing else (tuple(contours), ())
 
 

@@ -61,6 +61,15 @@ def test_a_gouge_below_a_wider_pass_counts(start: int, height: int, gouges: list
     assert [finding.line for finding in findings if finding.code == "ROUGHING"] == [6]
 
 
+def test_a_pass_that_a_later_pass_cuts_away_in_two_steps_is_roughing() -> None:
+    text = (
+        "G21 G17 G40 G90 F400\nT1 M6\nG0 X-16. Y0.\nG1 Z-10.\nG41 D1 X20.\nG3 I-20.\n"
+        "G1 Z-2.\nX24.\nG3 I-24.\nG1 Z-10.\nG3 I-24.\nG40 G1 X0.\nM30\n"
+    )
+    findings = judged_findings(judge_run(ran(text, "fanuc:a", t1=10.0)))
+    assert [finding.line for finding in findings if finding.severity is not Severity.INFO] == [6]
+
+
 @pytest.mark.parametrize(
     ("shape", "first", "second"),
     [
