@@ -420,6 +420,14 @@ def test_an_end_coordinate_that_stays_along_the_line_determines_nothing_if_the_h
     assert codes(solved(case_of(before[0], line(angle=0.0001, y_end=16.07)))) == ["MISSING"]
 
 
+def test_ends_of_a_line_that_differ_from_its_tangent_arc_by_rounding_are_taken() -> None:
+    """The top of the second arc is at Y 11.919; both ends of the line are typed as 11.92."""
+    top = line(tangent=True, angle=0.0, y_end=11.92)
+    last = cw(tangent=True, x_center=44.236, y_center=9.756, radius=2.163, y_end=7.593)
+    block = solved(case_of(line(angle=30.0), cw(tangent=True, radius=5.0, y_end=11.92), top, last))
+    assert block.whole
+
+
 def test_a_full_circle_may_be_tangent() -> None:
     block = solved(case_of(line(x_end=50, y_end=0), ccw(tangent=True, x_end=50, y_end=0, x_center=50, y_center=10)))
     assert block.whole

@@ -421,15 +421,12 @@ class Branch:
                     loci.append(moved)
         return loci
 
-    def _stays(self, index: int, coordinates: Numbers, axis: float) -> bool:
-        """True if a known line at a joint leaves a known coordinate as it is, but for the rounding of numbers."""
-        here = coordinates[index]
-        for element, other in ((index - 1, index - 1), (index, index + 1)):
-            line = self.line(element) if 0 <= element < len(self.run.elements) else None
-            value = None if line is None else coordinates[other]
-            if line is None or value is None or here is None:
-                continue
-            if abs(sin(line.heading - axis)) < MIN_INDEPENDENT_SINE and abs(value - here) <= ARC_RADII:
+    def _keeps_coordinate(self, element: int, line: OrientedLine) -> bool:
+        """True if a line leaves a coordinate that both its joints have as it is, but for the rounding of numbers."""
+        for coordinates, axis in ((self.x, pi / 2.0), (self.y, 0.0)):
+            begin, end = coordinates[element], coordinates[element + 1]
+            along = abs(sin(line.heading - axis)) < MIN_INDEPENDENT_SINE
+            if along and begin is not None and end is not None and abs(end - begin) <= ARC_RADII:
                 return True
         return False
 
@@ -453,14 +450,14 @@ class Branch:
 
     def _loci_at(self, index: int) -> Iterator[Locus]:
         x, y = self.x[index], self.y[index]
-        if x is not None and not self._stays(index, self.x, pi / 2.0):
+        if x is not None:
             yield line_through((x, 0.0), -pi / 2.0)
-        if y is not None and not self._stays(index, self.y, 0.0):
+        if y is not None:
             yield line_through((0.0, y), pi)
         elements = [element for element in (index - 1, index) if 0 <= element < len(self.run.elements)]
         for element in elements:
             line = self.line(element)
-            if line is not None:
+            if line is not None and not self._keeps_coordinate(element, line):
                 yield line
         # circles of elements come before circles about a joint
         anchors = [*self.arriving(index), *self.departing(index)] if elements else []
