@@ -476,7 +476,8 @@ class ContourScreen(FormScreen):
         waits = finding.code in WAITING_CODES
         tone = Tone.WARNING if finding.code in TO_TYPE else Tone.ERROR
         text = sentence(finding, session.program.unit) + self._or_later(finding)
-        if not waits and finding.field not in (None, "choice") and finding.segment != session.place.segment:
+        elsewhere = finding.segment != session.place.segment and f"egment {finding.segment:g} " not in text
+        if not waits and finding.field not in (None, "choice") and elsewhere:
             text = f"Segment {finding.segment:g}: {text}"
         if finding.code == "NOT_YET":
             text += f" Or F7: point to the end of segment {finding.segment:g}."

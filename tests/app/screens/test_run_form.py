@@ -289,3 +289,10 @@ async def test_a_contradiction_on_another_segment_is_named_with_its_number():
         assert user.prompt.startswith(f"Segment 2: {text}")
         await user.press("pagedown")
         assert user.prompt.startswith(text)
+
+
+async def test_a_contradiction_that_names_its_segment_gets_no_number_before_it():
+    segments = line(angle=30), line(tangent=True, angle=60, x_end=50, y_end=50)
+    async with operator(program_of(case_of(*segments))) as user:
+        await user.press("pagedown")
+        assert user.prompt.startswith("Segment 2 is not tangent to the one before")
