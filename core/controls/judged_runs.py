@@ -347,7 +347,8 @@ def _judge_part(
     """
     center = _center_path(run, stretch)
     accepted = _accepted_difference(run, whole, center)
-    results = [_judge_contour(stretch, whole.part(*rows), center, accepted, len(contours)) for rows in contours]
+    closed = frozenset(line for rows in contours if not contours[rows] for line in whole.numbers[slice(*rows)].tolist())
+    results = [_judge_contour(stretch, whole.part(*rows), center, accepted, len(contours), closed) for rows in contours]
     kept, roughing, walls = tuple(contours), tuple[RoughingPass, ...](), dict(contours)
     if any(result.verdict.gouges for result in results):
         kept, roughing = without_roughing_passes(whole, kept, stretch.side, stretch.radius)
@@ -356,12 +357,13 @@ def _judge_part(
         walls = {between_lead_arcs(whole, rows, stretch, cut_short=cut_short): lines for rows, lines in opened.items()}
     if walls != contours:
         count = len(walls) + len(roughing)
-        results = [_judge_contour(stretch, whole.part(*rows), center, accepted, count) for rows in walls]
+        results = [_judge_contour(stretch, whole.part(*rows), center, accepted, count, closed) for rows in walls]
     results = [replace(result, open_lines=lines) for result, lines in zip(results, walls.values(), strict=True)]
     for each in roughing:
         low = _below_later_pass(run, stretch, each)
         if len(low):
-            results.append(_judge_contour(stretch, whole.part(*each.rows), low, accepted, len(walls) + len(roughing)))
+            wall, count = whole.part(*each.rows), len(walls) + len(roughing)
+            results.append(_judge_contour(stretch, wall, low, accepted, count, closed))
     slack = max(result.verdict.radius_slack for result in results)
     results[0] = replace(results[0], roughing=roughing, uneven=_most_uneven(slack, whole, center))
     return _with_leads(results, whole, tuple(contours if roughing else walls), accepted, arcs=walls.keys() != set(kept))
@@ -424,13 +426,22 @@ def _center_path(run: ControlRun, stretch: Stretch) -> Path:
     return Path.of(np.repeat(point, 2, axis=0), point, np.zeros(1, np.int8), np.array([float(moves.lines[-1])]))
 
 
-def _judge_contour(stretch: Stretch, contour: Path, center: Path, accepted: float, contours: int) -> Judged:
-    """Judge one contour with the whole center path; moves along other contours are never on its wrong side."""
+def _judge_contour(
+    stretch: Stretch, contour: Path, center: Path, accepted: float, contours: int, closed: frozenset[float]
+) -> Judged:
+    """Judge one contour with the whole center path; moves along other contours are never on its wrong side.
+
+    A center path without its wear cannot gouge: there, moves between the `closed` contours may be on the wrong side.
+    """
     lines = frozenset(contour.numbers.tolist())
     surface, loops = without_corner_loops(without_repeats(contour), stretch.side)
     leads = Leads.MOVES if contours == 1 else Leads.SEGMENTS
     verdict = judge(surface, stretch.side, stretch.radius, center, accepted, leads=leads)
-    if (stretch.radius <= GOUGE and not stretch.wear) or contours > 1:
+    if stretch.wear:
+        verdict = replace(
+            verdict, wrong_side=tuple(row for row in verdict.wrong_side if center.numbers[row] not in closed - lines)
+        )
+    elif stretch.radius <= GOUGE or contours > 1:
         # a center on the contour itself has no side, whatever its leads cross; a later offset may not be 0
         verdict = replace(verdict, wrong_side=tuple(row for row in verdict.wrong_side if center.numbers[row] in lines))
     return Judged(stretch, surface, center, verdict, lines, loops=loops)

@@ -225,6 +225,18 @@ def test_a_center_path_with_negative_wear_that_begins_or_ends_in_the_part_is_on_
 
 
 @pytest.mark.parametrize("control", WEAR_CONTROLS)
+@pytest.mark.parametrize(("link", "lines"), [("X30.\nX85.", {13}), ("Y-30.\nX85.", set())])
+def test_a_link_through_the_part_between_two_center_paths_is_on_the_wrong_side(
+    link: str, lines: set[int], control: str
+) -> None:
+    text = "G21 G17 G90 G40 F400\nT1 M6\nG0 X-25. Y20.\nG1 Z-5.\nG41 D1 X-15. Y20.\nX-5.\n"
+    text += f"Y45.\nX65.\nY-5.\nX-5.\nY20.\nX-15.\n{link}\nX95. Y20.\nY45.\nX165.\nY-5.\nX95.\nY20.\nX85.\n"
+    run = ran(f"{text}G40 X80.\nM30\n", control, t1=-0.02)
+    wrong = {finding.line for finding in judged_findings(judge_run(run)) if finding.code == "WRONG-SIDE"}
+    assert wrong == lines
+
+
+@pytest.mark.parametrize("control", WEAR_CONTROLS)
 def test_a_larger_negative_radius_is_that_of_a_tool_along_the_outline(control: str) -> None:
     run = ran(CENTER_PATH.format(start=-25, end=-25), control, t1=-0.6)
     assert "GOUGE" in {finding.code for finding in judged_findings(judge_run(run))}
