@@ -437,13 +437,13 @@ def _judge_contour(
     surface, loops = without_corner_loops(without_repeats(contour), stretch.side)
     leads = Leads.MOVES if contours == 1 else Leads.SEGMENTS
     verdict = judge(surface, stretch.side, stretch.radius, center, accepted, leads=leads)
-    if stretch.wear:
-        verdict = replace(
-            verdict, wrong_side=tuple(row for row in verdict.wrong_side if center.numbers[row] not in closed - lines)
-        )
-    elif stretch.radius <= GOUGE or contours > 1:
+    wrong_side = verdict.wrong_side
+    if stretch.wear and lines <= closed:
+        wrong_side = tuple(row for row in wrong_side if center.numbers[row] not in closed - lines)
+    elif (stretch.radius <= GOUGE and not stretch.wear) or contours > 1:
         # a center on the contour itself has no side, whatever its leads cross; a later offset may not be 0
-        verdict = replace(verdict, wrong_side=tuple(row for row in verdict.wrong_side if center.numbers[row] in lines))
+        wrong_side = tuple(row for row in wrong_side if center.numbers[row] in lines)
+    verdict = replace(verdict, wrong_side=wrong_side)
     return Judged(stretch, surface, center, verdict, lines, loops=loops)
 
 
