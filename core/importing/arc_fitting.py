@@ -133,8 +133,10 @@ def _turns_one_way(turned: NDArray[np.float64]) -> bool:
 
 
 def _sagitta(starts: Points, ends: Points, center: complex, radius: float) -> float:
-    """Return how far the midpoints of chords are from a circle at most."""
-    return float(np.abs(np.abs((starts + ends) / 2.0 - center) - radius).max())
+    """Return how far the points of chords that are nearest to the center are from a circle at most."""
+    along = ends - starts
+    share = np.clip(((center - starts) * along.conj()).real / np.abs(along) ** 2, 0.0, 1.0)
+    return float(np.abs(np.abs(starts + share * along - center) - radius).max())
 
 
 def _open_run(points: Points, fit: float) -> tuple[list[Piece], float]:
@@ -223,11 +225,10 @@ def _bent(points: Points, fit: float) -> _Fit | None:
 
 
 def _off_arc(local: Points, size: float, height: float) -> float:
-    """Return how far points and the midpoints of their lines are from the arc of this height over its chord."""
+    """Return how far points and their lines are from the arc of this height over its chord."""
     if height <= 0.0:
         return float(np.abs(local.imag).max())
     radius = (size * size / 4.0 + height * height) / (2.0 * height)
     center = complex(0.0, height - radius)
-    middles = (local[1:] + local[:-1]) / 2.0
-    every = np.abs(np.concatenate((local, middles)) - center)
-    return float(np.abs(every - radius).max())
+    off = float(np.abs(np.abs(local - center) - radius).max())
+    return max(off, _sagitta(local[:-1], local[1:], center, radius))

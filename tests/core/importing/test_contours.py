@@ -443,6 +443,23 @@ def test_a_sampled_notch_becomes_one_arc() -> None:
     assert arc.radius == pytest.approx(4.0, abs=0.005)
 
 
+def test_no_line_is_farther_from_its_arc_than_fit() -> None:
+    """The point of a line that is farthest from the arc is not its midpoint."""
+    fitted_count = 0
+    for seed in range(100):
+        corners, at, turn = [(0.0, 0.0)], 0j, math.radians(3.4 + 0.004 * seed)
+        for row in range(4):
+            at += (60.0 if row == 3 else 1.0) * complex(math.cos(row * turn), math.sin(row * turn))
+            corners.append((at.real, at.imag))
+        ends = itertools.pairwise(corners)
+        fitted = fitted_contour(listed(dxf(*(line(*pair) for pair in ends))).contours[0], 0.005)
+        path = shapely.LineString(chords_of(Path.from_pieces(fitted.pieces), 1e-6))
+        off = shapely.hausdorff_distance(path, shapely.LineString(corners), densify=0.02)
+        assert off < 0.00501, seed
+        fitted_count += any(isinstance(piece, Arc) for piece in fitted.pieces)
+    assert 20 < fitted_count < 100
+
+
 @pytest.mark.parametrize("chords", range(3, 18))
 def test_as_many_chords_as_lie_on_one_circle_become_its_arc(chords: int) -> None:
     """A line of another length follows, in the direction of the circle at its end."""
