@@ -42,7 +42,7 @@ STOCK: Final = 1e-4
 """Is the stock left on the surface worth reporting?  A stretch that is thinner everywhere counts as cut: no
 machine is that exact, and curves drawn as many lines leave that much at every joint."""
 
-SMALLEST_SHOWN: Final = 0.00127
+SMALLEST_SHOWN_LENGTH: Final = 0.00127
 """Is a length more than 0.0000 on a form in inches?  Half of its last digit."""
 
 LARGEST_COORDINATE: Final = 1e7

@@ -53,7 +53,7 @@ def _port(text: str) -> int:
 def sheet(options: argparse.Namespace) -> int:
     """Run `cutcomp sheet`, which writes the setup sheet; return 1 if the sheet says DO NOT RUN."""
     from app.session.posting import setup_sheet
-    from core.output.sheet import NOT_READY
+    from core.output.sheet import NOT_READY_TEXT
 
     program = load(options.file)
     text = setup_sheet(program, options.output or Path("-"), datetime.now().astimezone(), name=options.file.stem)
@@ -61,7 +61,7 @@ def sheet(options: argparse.Namespace) -> int:
         sys.stdout.write(text)
     else:
         write_output(options.output, text)
-    return STATUS_FINDINGS if NOT_READY in text else STATUS_CLEAN
+    return STATUS_FINDINGS if NOT_READY_TEXT in text else STATUS_CLEAN
 
 
 def tools(options: argparse.Namespace) -> int:

@@ -17,7 +17,7 @@ from app.cli.lifeline import GRACE_SECONDS
 
 MAX_UNREAD_SECONDS: Final = 15.0
 """Seconds that a page or its program may leave unread what it is sent; then the program is killed."""
-LARGEST_COMPLAINT: Final = 16_384
+MAX_COMPLAINT_BYTES: Final = 16_384
 """The most bytes of a program's standard error that are logged; the rest is read and dropped."""
 WIDTHS: Final = (20, 500)
 HEIGHTS: Final = (5, 200)
@@ -35,7 +35,7 @@ async def complaint(errors: asyncio.StreamReader) -> None:
     """Read a program's standard error to its end; log the beginning."""
     text = b""
     while data := await errors.read(4096):
-        text = (text + data)[:LARGEST_COMPLAINT]
+        text = (text + data)[:MAX_COMPLAINT_BYTES]
     if text:
         log.error("%s", text.decode("utf-8", "replace"))
 

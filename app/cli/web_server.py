@@ -23,7 +23,7 @@ from app.cli.web_children import Service
 MAX_PAGES: Final = 8
 """The most pages at a time; each is a process of its own."""
 FULL_TEXT: Final = f"{MAX_PAGES} pages are open, and there is room for no more. Close one, then load this page again."
-FULL_SHOWN: Final = 600.0
+FULL_TEXT_SECONDS: Final = 600.0
 """Seconds that a page shows this sentence."""
 CHECK_SECONDS: Final = 0.5
 """Seconds between two checks that a page is still there."""
@@ -160,6 +160,6 @@ async def _refuse_in_page(request: web.Request) -> web.WebSocketResponse:
     await socket.send_bytes(f"\x1b[2J\x1b[H{FULL_TEXT}\r\n".encode())
     with suppress(TimeoutError):
         # until the page is closed: when the connection ends, the page covers the sentence
-        await asyncio.wait_for(socket.receive(), FULL_SHOWN)
+        await asyncio.wait_for(socket.receive(), FULL_TEXT_SECONDS)
     await socket.close()
     return socket

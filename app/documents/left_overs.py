@@ -23,7 +23,7 @@ from core.units import plain
 MAX_KEPT_COPIES: Final = 40
 """The most kept copies that are listed, the newest; the others stay in the folder."""
 UNNAMED_PROGRAM: Final = "a program without a name"
-CUT_NAME: Final = 100
+MAX_NAME_CHARACTERS: Final = 100
 """The number of characters of a file's name that the name of a journal in the user's folder begins with."""
 KEPT_COPY_WORDS: Final = {"kept": "kept", "discarded": "discarded", "theirs": "taken-over", "damaged": "damaged"}
 
@@ -56,7 +56,7 @@ def elsewhere(file: Path, state: Path) -> Path:
 
 
 def _name_prefix(target: str) -> str:
-    return f"{Path(target).name[:CUT_NAME]}-"
+    return f"{Path(target).name[:MAX_NAME_CHARACTERS]}-"
 
 
 def new_journal(path: Path, file: Path | None) -> JournalFile:
@@ -285,7 +285,7 @@ def _is_listed(path: Path, folder: Path, state: Path) -> bool:
     """
     name = _file_name(path)
     here = path.name.startswith(".") or place_of(path) == elsewhere(folder / name, state)
-    return here or name == UNNAMED_PROGRAM or name.lower().endswith(".toml") or len(name) >= CUT_NAME
+    return here or name == UNNAMED_PROGRAM or name.lower().endswith(".toml") or len(name) >= MAX_NAME_CHARACTERS
 
 
 def _file_name(path: Path) -> str:

@@ -14,7 +14,7 @@ FILE_SECONDS: Final = 5.0
 """The seconds that opening a file may take."""
 DISK_SECONDS: Final = 0.5
 """The seconds that a keystroke waits for the disk before it goes on without it."""
-LAST_SECONDS: Final = 2.0
+EXIT_SECONDS: Final = 2.0
 """The seconds that the program waits for the disk when it ends."""
 
 Result = TypeVar("Result")
@@ -59,8 +59,8 @@ class Disk:
                 future.set_exception(error)
 
     def finish(self, work: Callable[[], object]) -> None:
-        """Do the last work behind all that is waiting; wait no longer than `LAST_SECONDS` for it."""
-        wait([self.do(work)], LAST_SECONDS)
+        """Do the last work behind all that is waiting; wait no longer than `EXIT_SECONDS` for it."""
+        wait([self.do(work)], EXIT_SECONDS)
 
 
 def within(seconds: float, work: Callable[[], Result]) -> Result:

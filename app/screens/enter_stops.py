@@ -13,7 +13,7 @@ from core.program.fields import Field, Form
 from core.program.model import Number, Unread
 from core.program.solve.solved import Solved
 
-ALWAYS_STOPS: Final[Mapping[Form, frozenset[str]]] = MappingProxyType(
+PERMANENT_STOPS: Final[Mapping[Form, frozenset[str]]] = MappingProxyType(
     {
         Form.START: frozenset({"cutter_comp", "x_start", "y_start"}),
         Form.LINE: frozenset({"x_end", "y_end"}),
@@ -43,7 +43,7 @@ def unanswered(session: Session) -> str | None:
 def stops(session: Session, field: Field) -> bool:
     """Return whether Enter stops at a field."""
     form = form_at(session)
-    if field.name in ALWAYS_STOPS[form] or _needs_answer(session, field):
+    if field.name in PERMANENT_STOPS[form] or _needs_answer(session, field):
         return True
     if form is Form.ARC and field.name in UNLESS_CALCULATED:
         return not isinstance(value_at(session, field.name), Solved)

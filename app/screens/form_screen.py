@@ -25,7 +25,6 @@ from core.program.solve.solved import Value
 from core.units import Kind, printable, sentence
 
 CALCULATOR_KINDS: Final = frozenset({Kind.LENGTH, Kind.ANGLE})
-"""The kinds of fields on which the calculator works."""
 
 SOFTKEY_WAIT: Final = 2.0
 """Seconds after Esc in which a digit presses a softkey."""

@@ -86,7 +86,7 @@ MAX_NOTES: Final = 2
 PROMPT: Final = (
     "Space marks, Enter takes what is marked or the row with the cursor. Right arrow opens a row of several, / filters."
 )
-LARGE_PROMPT: Final = (
+LARGE_DRAWING_PROMPT: Final = (
     "+ and - zoom, arrows move, 0 shows all, n and p change the chain, Space marks, F7 or Esc: the list."
 )
 STAGE_NAMES: Final = {
@@ -704,7 +704,7 @@ class ImportScreen(BaseScreen):
             return Sentence(self._failed, Tone.ERROR)
         if self.has_class("-filtering"):
             return self._filter_prompt()
-        return Sentence(LARGE_PROMPT if self.has_class("-large") else PROMPT)
+        return Sentence(LARGE_DRAWING_PROMPT if self.has_class("-large") else PROMPT)
 
     def _filter_prompt(self) -> Sentence:
         """Return the filter's prompt; warn if no chain matches."""

@@ -22,7 +22,7 @@ LOCALE_VARIABLES: Final = ("LC_ALL", "LC_CTYPE", "LANG")
 """The first of these that is not empty names the locale."""
 COERCED_LOCALES: Final = ("C.UTF-8", "C.utf8", "UTF-8")
 """What Python may set LC_CTYPE to if it is C or a locale that is not installed (PEP 538)."""
-STARTED_WITH: Final = Path("/proc/self/environ")
+START_ENVIRONMENT: Final = Path("/proc/self/environ")
 """The environment with which the program was started, on Linux."""
 LOOKALIKES: Final = str.maketrans("│┃─━├┤▀▄█…→↗↑↖←↙↓↘▲▼▶◀✓✖×•·", '||--||"_#~>>^<<<v>^v><+!x..')
 LOOKALIKE_ERRORS: Final = "cutcomp.lookalike"
@@ -33,7 +33,7 @@ FIRST_BRAILLE, LAST_BRAILLE = "\u2801", "\u28ff"
 def started_with() -> Mapping[str, str] | None:
     """Return the environment before Python changed it; None if the system does not show it."""
     try:
-        data = STARTED_WITH.read_bytes()
+        data = START_ENVIRONMENT.read_bytes()
     except OSError:
         return None
     pairs = (os.fsdecode(entry).partition("=") for entry in data.split(b"\0") if entry)

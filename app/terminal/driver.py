@@ -31,10 +31,9 @@ if TYPE_CHECKING:
     from textual.app import App
 
 CHARACTER_SETS: Final = ("braille", "block", "ascii")
-"""The character sets of drawings."""
 CHECK_SECONDS: Final = 0.1
 """Seconds between two checks for the end of the program."""
-LARGEST_READ: Final = 4096
+MAX_READ_BYTES: Final = 4096
 UNFIT_TERMS: Final = ("dumb", "unknown", "")
 """Values of TERM for terminals that cannot position the cursor."""
 ERASING_TERMS: Final = (
@@ -200,7 +199,7 @@ def typed_in() -> str:
 def read(handle: int) -> bytes:
     """Return what was typed; empty at the end of the input or if the link has dropped."""
     try:
-        return os.read(handle, LARGEST_READ)
+        return os.read(handle, MAX_READ_BYTES)
     except OSError:
         return b""
 

@@ -28,10 +28,9 @@ if TYPE_CHECKING:
 
 
 ZOOM_FACTOR: Final = 1.25
-"""The factor of one zoom step."""
 PAN_SHARE: Final = 0.125
 """The fraction of the window by which one arrow key moves it."""
-MAX_OFFSET_SIZES: Final = 2.0
+MAX_PAN_FACTOR: Final = 2.0
 """How far the window may move from the drawing, as a multiple of the drawing's larger side."""
 LOOK_KEYS: Final[tuple[BindingType, ...]] = (
     Binding("plus,equals_sign", "screen.zoom(1)", "Zoom in", show=False),
@@ -107,7 +106,7 @@ class Drawing(Widget):
         if self.drawn is None:
             return None
         view = self.drawn.view.pan(PAN_SHARE * right, PAN_SHARE * up, *self.size)
-        return view if view.touches(self.drawn.bounds, MAX_OFFSET_SIZES) else None
+        return view if view.touches(self.drawn.bounds, MAX_PAN_FACTOR) else None
 
     def watch_subject(self) -> None:
         """Redraw for another block, segment or view."""

@@ -32,7 +32,6 @@ if TYPE_CHECKING:
     from core.verify.verdict import Verdict as Judgment
 
 MAX_LOOKAHEAD: Final = 20
-"""The largest look-ahead value."""
 CHIPS_WIDTH: Final = 58
 """The width in cells of the chips' line on the narrowest screens."""
 SHORTEST_CHIP: Final = 24

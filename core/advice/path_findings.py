@@ -16,7 +16,7 @@ from core.comp.compensated import Compensated
 from core.finding import Finding, Severity
 from core.geometry.path import Path, as_complex, next_in_ring
 from core.geometry.piece import Point, Side
-from core.tolerance import GOUGE, JOINED, SMALLEST_SHOWN
+from core.tolerance import GOUGE, JOINED, SMALLEST_SHOWN_LENGTH
 from core.verify.air_cuts import AirCut, air_cuts
 from core.verify.report import Names, contact_findings, move_name
 from core.verify.report import verdict_findings as verdict_findings
@@ -195,7 +195,7 @@ def better_path_findings(best: BestPath, apart: Separation) -> tuple[Finding, ..
     """Report what the best path would cut that the control's does not, or that there is no best path."""
     if not best.loops:
         return (Finding("NO_BEST", Severity.INFO, "The tool does not fit. Use a smaller one."),)
-    if apart.length <= SMALLEST_SHOWN or not apart.stretches:
+    if apart.length <= SMALLEST_SHOWN_LENGTH or not apart.stretches:
         return ()
     first = apart.stretches[0]
     x, y = first.points[0].tolist()

@@ -16,7 +16,7 @@ from core.geometry.path import Path
 from core.geometry.piece_arrays import at, piece_arrays
 from core.tolerance import ON_PATH
 
-LARGEST_SAME_DISTANCE: Final = 0.0005
+MAX_SAME_DISTANCE: Final = 0.0005
 """Millimeters above which two paths or contours differ."""
 
 MAX_PAIRS: Final = 20_000_000
@@ -58,7 +58,7 @@ def _pair(number: int, first: Stretch, second: Stretch) -> ContourPair:
     ours, theirs = (surface.part(*contour_of(surface)) for surface in surfaces)
     same_side = first.side is second.side and first.plane is second.plane
     return ContourPair(
-        number, apart(ours, theirs, LARGEST_SAME_DISTANCE), apart(theirs, ours, LARGEST_SAME_DISTANCE), same_side
+        number, apart(ours, theirs, MAX_SAME_DISTANCE), apart(theirs, ours, MAX_SAME_DISTANCE), same_side
     )
 
 

@@ -7,7 +7,7 @@ from typing import Final
 
 import numpy as np
 
-from core.controls.compared_contours import LARGEST_SAME_DISTANCE, Parting, apart
+from core.controls.compared_contours import MAX_SAME_DISTANCE, Parting, apart
 from core.controls.contour_translation import run_by_contour
 from core.controls.control_run import ControlRun, Stretch
 from core.controls.control_tools import ToolTable
@@ -136,7 +136,7 @@ def parting(first: Moves, other: Moves) -> Parting | None:
     """
     ours, theirs = _points_by_line(first), _points_by_line(other)
     distances = {line: _distance(ours[line], theirs[line]) for line in sorted(ours.keys() & theirs.keys())}
-    lines = [line for line, distance in distances.items() if distance > LARGEST_SAME_DISTANCE]
+    lines = [line for line, distance in distances.items() if distance > MAX_SAME_DISTANCE]
     if not lines:
         return None
     farthest = max(lines, key=distances.__getitem__)

@@ -39,7 +39,7 @@ from core.verify.verdict import Gouge
 MAX_CHORD_ERROR: Final = 1e-3
 """Largest distance in millimeters of a chord from its arc."""
 
-SEGMENTS_A_QUARTER: Final = 32
+CHORDS_PER_QUARTER: Final = 32
 """Chords per quarter circle at the ends of a swept region."""
 
 MIN_CUT_DEPTH: Final = 0.01
@@ -93,7 +93,7 @@ class _Pass:
         if (top, grown) not in self.regions:
             lines = [LineString(chords_of(path, MAX_CHORD_ERROR)) for path in self.low(top)]
             reach = max(self.radius + grown, 0.0)
-            region = shapely.union_all([line.buffer(reach, quad_segs=SEGMENTS_A_QUARTER) for line in lines])
+            region = shapely.union_all([line.buffer(reach, quad_segs=CHORDS_PER_QUARTER) for line in lines])
             shapely.prepare(region)
             self.regions[top, grown] = region
         return self.regions[top, grown]

@@ -34,11 +34,11 @@ from core.geometry.nearby import BoxTree, near_pairs
 from core.geometry.path import EMPTY, Path, Rows, joined
 from core.progress import Progress, silent
 from core.progress import part as part_of
-from core.tolerance import ARC_RADII, GOUGE, ON_PATH, ROUNDING, SMALLEST_SHOWN
+from core.tolerance import ARC_RADII, GOUGE, ON_PATH, ROUNDING, SMALLEST_SHOWN_LENGTH
 from core.units import Kind, Unit, decimals_shown, to_mm
 from core.verify.air_cuts import AirCut, air_cuts
 from core.verify.judge import judge
-from core.verify.report import LAST_DIGIT, contact_findings, enumerated, or_more
+from core.verify.report import LAST_INCH_DIGIT, contact_findings, enumerated, or_more
 from core.verify.surface import Leads
 from core.verify.verdict import Gouge, OverRun, Verdict
 
@@ -633,7 +633,7 @@ def _unjudged(result: Judged) -> Finding:
 
 
 def _gouge(gouge: Gouge, radius: float) -> Finding:
-    too_small = gouge.depth < SMALLEST_SHOWN
+    too_small = gouge.depth < SMALLEST_SHOWN_LENGTH
     depth = "less than {0}" if too_small else "{value}" + or_more(gouge, radius)
     text = f"The cutter gouges the surface of line {int(gouge.surface_number)} by {depth} at X {{x}} Y {{y}}."
     line = _line(gouge.path_number)
@@ -643,7 +643,7 @@ def _gouge(gouge: Gouge, radius: float) -> Finding:
         text,
         at=gouge.surface_at,
         value=gouge.depth,
-        lengths=(LAST_DIGIT,) if too_small else (),
+        lengths=(LAST_INCH_DIGIT,) if too_small else (),
         line=line,
     )
 
@@ -747,10 +747,10 @@ def _uncut(result: Judged) -> list[Finding]:
     if not verdict.judged or not verdict.uncut or result.cut_short:
         return []
     worst = max(verdict.uncut, key=lambda stretch: stretch.thickness)
-    too_small = worst.thickness < SMALLEST_SHOWN
+    too_small = worst.thickness < SMALLEST_SHOWN_LENGTH
     thick = "less than {2}" if too_small else "at most {value}"
     text = f"{{0}} of {{1}} of the surface stays uncut, {thick} thick at X {{x}} Y {{y}}."
-    lengths = (verdict.uncut_length, verdict.surface_length, *((LAST_DIGIT,) if too_small else ()))
+    lengths = (verdict.uncut_length, verdict.surface_length, *((LAST_INCH_DIGIT,) if too_small else ()))
     line, at = int(worst.first_number), worst.thickest
     severity = Severity.INFO if too_small else Severity.WARNING
     return [Finding("UNCUT", severity, text, at=at, value=worst.thickness, lengths=lengths, line=line)]

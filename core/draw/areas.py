@@ -22,12 +22,11 @@ from core.geometry.path import Floats, Path
 from core.geometry.piece import Side
 
 EMPTY_REGION: Final = MultiPolygon()
-"""The region without points."""
-SEGMENTS_A_QUARTER: Final = 16
+CHORDS_PER_QUARTER: Final = 16
 """Chords per quarter circle at the ends of a swept region."""
-OUTSIDE_THICKNESS: Final = 4.0
+OUTSIDE_THICKNESS_RADII: Final = 4.0
 """Thickness of the material drawn outside a closed contour whose outside is the part, in tool radii."""
-BEHIND_OPEN_THICKNESS: Final = 2.0
+OPEN_THICKNESS_RADII: Final = 2.0
 """Thickness of the material drawn behind an open contour, in tool radii: no gouge is reported deeper."""
 MAX_STRETCHES: Final = 200
 """Uncut stretches that are shaded, the thickest first."""
@@ -40,13 +39,13 @@ def material(surface: Path, side: Side, radius: float, *, closed: bool, sag: flo
         return EMPTY_REGION
     if not closed:
         return _strip_along(
-            points, -BEHIND_OPEN_THICKNESS * radius if side is Side.LEFT else BEHIND_OPEN_THICKNESS * radius
+            points, -OPEN_THICKNESS_RADII * radius if side is Side.LEFT else OPEN_THICKNESS_RADII * radius
         )
     inside = shapely.make_valid(Polygon(points))
     left = _counter_clockwise(points)
     if left is not (side is Side.LEFT):
         return inside
-    return box(*inside.buffer(OUTSIDE_THICKNESS * radius).bounds).difference(inside)
+    return box(*inside.buffer(OUTSIDE_THICKNESS_RADII * radius).bounds).difference(inside)
 
 
 def _strip_along(points: Floats, distance: float) -> BaseGeometry:
@@ -69,7 +68,7 @@ def _counter_clockwise(points: Floats) -> bool:
 def swept(paths: Sequence[Path], radius: float, sag: float) -> BaseGeometry:
     """Return the region that a cutter of this radius sweeps on its paths."""
     lines = [LineString(points).simplify(sag / 2.0) for path in paths if len(points := chords_of(path, sag)) > 1]
-    return shapely.union_all([line.buffer(max(radius, 0.0), quad_segs=SEGMENTS_A_QUARTER) for line in lines])
+    return shapely.union_all([line.buffer(max(radius, 0.0), quad_segs=CHORDS_PER_QUARTER) for line in lines])
 
 
 def gouged(part: BaseGeometry, paths: Sequence[Path], radius: float, sag: float) -> BaseGeometry:
@@ -98,7 +97,7 @@ def uncut(
 def _near(pairs: Iterable[tuple[float, Path]], sag: float) -> Iterator[BaseGeometry]:
     for depth, path in pairs:
         if len(points := chords_of(path, sag)) > 1:
-            yield LineString(points).buffer(depth + sag, quad_segs=SEGMENTS_A_QUARTER)
+            yield LineString(points).buffer(depth + sag, quad_segs=CHORDS_PER_QUARTER)
 
 
 def inside(region: BaseGeometry, x: Floats, y: Floats) -> NDArray[np.bool_]:

@@ -14,7 +14,7 @@ from typing import Final
 
 import numpy as np
 
-from core.draw.scene import LARGEST_DRAWN, Layer
+from core.draw.scene import MAX_DRAWN_COORDINATE, Layer
 from core.draw.view import CELL_HEIGHT, View
 from core.geometry.path import Flags, Floats, Points, Rows, Turns, as_complex
 
@@ -111,7 +111,7 @@ def _wanted(layer: Layer) -> Flags:
 
 def _within(points: Points) -> Flags:
     """Return (n,) True for points that are drawn at all; a NaN is not."""
-    within: Flags = (np.abs(points.real) <= LARGEST_DRAWN) & (np.abs(points.imag) <= LARGEST_DRAWN)
+    within: Flags = (np.abs(points.real) <= MAX_DRAWN_COORDINATE) & (np.abs(points.imag) <= MAX_DRAWN_COORDINATE)
     return within
 
 

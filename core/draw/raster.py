@@ -15,20 +15,20 @@ from numpy.typing import NDArray
 from core.draw.areas import inside
 from core.draw.characters import CELLS_OF_MODE, Cells, CellSheet, Mode, write_signs
 from core.draw.chords import Chords, chords
-from core.draw.scene import DOTTED_STYLES, LARGEST_DRAWN, Area, Layer, Scene, Style
+from core.draw.scene import DOTTED_STYLES, MAX_DRAWN_COORDINATE, Area, Layer, Scene, Style
 from core.draw.view import CELL_HEIGHT, View
 from core.geometry.path import Floats, Rows
 
-DASH_PERIOD: Final = (3.0, 1.8)
+DASH_PATTERN: Final = (3.0, 1.8)
 """A dash's period and its lit part, in cell widths."""
-AXIS_DASH: Final = (4.0, 1.0)
+AXIS_DASH_PATTERN: Final = (4.0, 1.0)
 DOT_SHIFT: Final = 1e-6
 """Share of a dot by which all dots shift: rounding must not move a line that lies exactly between two rows of dots."""
 FAINT_STYLES: Final = (Style.AXIS, Style.PATH, Style.LEAD, Style.RAPID)
 """Roles that do not give a cell the surface's character."""
 DELETED_CHARACTER: Final = "#"
 """The character of cells with deleted surface if dots are too coarse for a dotted line."""
-DOT_PERIOD: Final = (1.0, 0.4)
+DOT_PATTERN: Final = (1.0, 0.4)
 """The period and the lit part of a dotted line, in cell widths."""
 THICK_STYLES: Final = (Style.UNCUT, Style.CURRENT)
 """Roles drawn two dots thick."""
@@ -84,7 +84,7 @@ def draw(scene: Scene, view: View, columns: int, rows: int, mode: Mode) -> Pictu
 
 def _axes(view: View, look: Cells, columns: int, rows: int) -> Rows:
     """Return the bits that the X axis, left to right, and the Y axis, top to bottom, light inside the window."""
-    (x, y), limit, (wide, high) = view.center, LARGEST_DRAWN / view.scale, look.dot
+    (x, y), limit, (wide, high) = view.center, MAX_DRAWN_COORDINATE / view.scale, look.dot
     across, up, half_width, half_height = -x / view.scale, -y / view.scale, columns / 2, rows * CELL_HEIGHT / 2
     axes: list[tuple[complex, complex]] = []
     if abs(up) <= half_height and max(half_width, abs(up)) <= limit:
@@ -96,7 +96,7 @@ def _axes(view: View, look: Cells, columns: int, rows: int) -> Rows:
     starts, runs = np.array(axes, np.complex128).reshape(-1, 2).T
     lines = Chords(starts, runs, np.zeros(len(axes), np.intp), np.zeros(len(axes)))
     chord, part, bits = _dots(lines, look, columns, rows)
-    return bits[np.mod(part * np.abs(runs)[chord] + AXIS_PHASE, AXIS_DASH[0]) < AXIS_DASH[1]]
+    return bits[np.mod(part * np.abs(runs)[chord] + AXIS_PHASE, AXIS_DASH_PATTERN[0]) < AXIS_DASH_PATTERN[1]]
 
 
 def _clipped(lines: Chords, half_width: float, half_height: float) -> Chords:
@@ -223,7 +223,7 @@ def _dashes(lines: Chords, rows: Rows, chord: Rows, part: Floats, role: Styles) 
     owners = chord[rows]
     along = lines.along[owners] + part[rows] * np.abs(lines.runs[owners])
     dotted = np.isin(role[rows], [style.value for style in DOTTED_STYLES])
-    period, lit = (np.where(dotted, fine, coarse) for fine, coarse in zip(DOT_PERIOD, DASH_PERIOD, strict=True))
+    period, lit = (np.where(dotted, fine, coarse) for fine, coarse in zip(DOT_PATTERN, DASH_PATTERN, strict=True))
     lit_dots[rows] = np.mod(along, period) < lit
     return lit_dots
 

@@ -23,7 +23,7 @@ from core.units import Unit
 
 Box = tuple[float, float, float, float]
 
-LARGEST_DRAWN: Final = 10 * LARGEST_COORDINATE
+MAX_DRAWN_COORDINATE: Final = 10 * LARGEST_COORDINATE
 """A coordinate that is larger than this, or NaN, is neither drawn nor fitted into a view."""
 
 
@@ -169,7 +169,7 @@ def _around(boxes: Sequence[Floats]) -> Box | None:
     """Return the box around all boxes (n, 4) that can be drawn."""
     rows = np.concatenate([np.empty((0, 4)), *boxes])
     # comparisons with NaN are false
-    drawn = rows[(np.abs(rows) <= LARGEST_DRAWN).all(axis=1)]
+    drawn = rows[(np.abs(rows) <= MAX_DRAWN_COORDINATE).all(axis=1)]
     if not len(drawn):
         return None
     (left, low), (right, high) = drawn[:, :2].min(axis=0).tolist(), drawn[:, 2:].max(axis=0).tolist()

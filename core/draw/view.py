@@ -19,7 +19,7 @@ FINEST_SCALE: Final = 1e-7
 COARSEST_SCALE: Final = 1e8
 BEYOND_PART: Final = 1 / 7
 """Share of the window that may lie beyond the workpiece on each side."""
-FREE_SHARE: Final = 0.04
+MARGIN_SHARE: Final = 0.04
 """Share of the window that `fit` leaves free on each side."""
 
 
@@ -34,7 +34,7 @@ class View:
     def fit(bounds: Box | None, columns: int, rows: int) -> View:
         """Return the largest view of `bounds` in columns x rows cells, with a margin; None gives a view around zero."""
         x0, y0, x1, y1 = bounds or (-1.0, -1.0, 1.0, 1.0)
-        wide, high = max(columns, 1) * (1 - 2 * FREE_SHARE), max(rows, 1) * CELL_HEIGHT * (1 - 2 * FREE_SHARE)
+        wide, high = max(columns, 1) * (1 - 2 * MARGIN_SHARE), max(rows, 1) * CELL_HEIGHT * (1 - 2 * MARGIN_SHARE)
         scale = max((x1 - x0) / wide, (y1 - y0) / high)
         return View(((x0 + x1) / 2, (y0 + y1) / 2), _held(scale) if scale > 0.0 else 2.0 / wide)
 

@@ -27,7 +27,7 @@ Floats = NDArray[np.float64]
 SAMPLE_FRACTIONS: Final = np.linspace(0.0, 1.0, 25)
 """Where the distance of a biarc from the curve is sampled, as fractions of its parameter range in each span."""
 
-SAMPLED_SHARE: Final = 0.98
+MAX_ERROR_SHARE: Final = 0.98
 """Fraction of FIT that the sampled distance may reach; between two samples it is a little larger."""
 
 MIN_CORNER_ANGLE: Final = 1e-3
@@ -234,10 +234,10 @@ def _fitted(curve: _SplineCurve, fit: float) -> list[Piece]:
     """Return a smooth curve as arcs and lines: split at its curvature extremes or not, whichever needs fewer."""
     end = float(curve.control.shape[1])
     stations = _extremes(curve, 0.0, end)
-    divided = [_stops(curve, here, there, fit * SAMPLED_SHARE) for here, there in pairwise(stations) if there > here]
-    whole = [_stops(curve, 0.0, end, fit * SAMPLED_SHARE)] if len(divided) > 1 else divided
+    divided = [_stops(curve, here, there, fit * MAX_ERROR_SHARE) for here, there in pairwise(stations) if there > here]
+    whole = [_stops(curve, 0.0, end, fit * MAX_ERROR_SHARE)] if len(divided) > 1 else divided
     chosen = min((divided, whole), key=lambda runs: sum(len(run) - 1 for run in runs))
-    balanced = [_balanced(curve, run, fit * SAMPLED_SHARE) for run in chosen]
+    balanced = [_balanced(curve, run, fit * MAX_ERROR_SHARE) for run in chosen]
     return _biarcs(curve, [0.0, *(stop for run in balanced for stop in run[1:])], fit)
 
 
@@ -338,13 +338,13 @@ def _replacement(
     if not 0 < at < len(stops) - 1:
         return None
     begin, end = stops[at - 1], stops[at + 1]
-    if _biarc_between(curve, begin, end)[1] <= fit * SAMPLED_SHARE:
+    if _biarc_between(curve, begin, end)[1] <= fit * MAX_ERROR_SHARE:
         return at, []
     worst = min(_shortest(biarcs[at - 1]), _shortest(biarcs[at]))
     for share in MOVED_STOPS:
         middle = begin + share * (end - begin)
         halves = [_biarc_between(curve, begin, middle), _biarc_between(curve, middle, end)]
-        if all(error <= fit * SAMPLED_SHARE for _, error in halves):
+        if all(error <= fit * MAX_ERROR_SHARE for _, error in halves):
             shortest = min(_shortest(pieces) for pieces, _ in halves)
             if shortest > MIN_GROWTH_FACTOR * worst:
                 return at, [middle]
@@ -356,7 +356,7 @@ def _shortest(pieces: list[Piece]) -> float:
 
 
 def _balanced_stops(curve: Curve, begin: float, end: float, fit: float) -> list[float]:
-    return _balanced(curve, _stops(curve, begin, end, fit * SAMPLED_SHARE), fit * SAMPLED_SHARE)
+    return _balanced(curve, _stops(curve, begin, end, fit * MAX_ERROR_SHARE), fit * MAX_ERROR_SHARE)
 
 
 def _balanced(curve: Curve, stops: list[float], fit: float) -> list[float]:

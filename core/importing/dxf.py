@@ -48,7 +48,7 @@ if TYPE_CHECKING:
     from ezdxf.entities.spline import Spline
     from ezdxf.math import OCS, Matrix44, Vec3
 
-MAX_FLAT_HEIGHT: Final = 1e-4
+MAX_FLAT_Z_DIFFERENCE: Final = 1e-4
 """Largest difference in Z of one entity's points, in the drawing's unit; a larger one is a slope, not rounding."""
 
 LARGEST_SAGITTA: Final = 0.005
@@ -186,7 +186,7 @@ class _Reader:
     def drawing(self, scan: Scan) -> Drawing:
         """Return everything that was read."""
         notes = [f"{text}" if count == 1 else f"{count} times: {text}" for text, count in self.notes.items()]
-        if self.heights and max(self.heights) - min(self.heights) > MAX_FLAT_HEIGHT:
+        if self.heights and max(self.heights) - min(self.heights) > MAX_FLAT_Z_DIFFERENCE:
             low, high = min(self.heights), max(self.heights)
             notes.append(f"The entities lie at heights from Z {low:g} to {high:g}: Z is dropped.")
         code, other = scan.units, ""
@@ -304,7 +304,7 @@ class _Reader:
 
     def _level(self, *heights: float) -> None:
         """Raise if the heights differ; keep the first one."""
-        if max(heights) - min(heights) > MAX_FLAT_HEIGHT:
+        if max(heights) - min(heights) > MAX_FLAT_Z_DIFFERENCE:
             raise _NotFlatError("does not lie in the XY plane")
         self.heights += heights[:1]
 

@@ -18,7 +18,7 @@ from core.units import Kind, Unit, from_mm, show
 
 NC_DECIMALS: Final = {Unit.IN: 6, Unit.MM: 5}
 FEED_DECIMALS: Final = 3
-CENTER_EXTRA_DECIMALS: Final = 1
+EXTRA_CENTER_DECIMALS: Final = 1
 """Additional decimals of I and J, which keep the two radii of an arc equal."""
 MAX_END_ERROR: Final = 4.0
 """Largest distance, in last digits and along the arc, of an arc's written end from where it should be."""
@@ -40,7 +40,7 @@ class Grid:
 
     @property
     def decimals(self) -> int:
-        """Decimals of X, Y and Z; I and J have `CENTER_EXTRA_DECIMALS` more."""
+        """Decimals of X, Y and Z; I and J have `EXTRA_CENTER_DECIMALS` more."""
         return NC_DECIMALS[self.unit]
 
     def fine(self, value: float) -> float:
@@ -81,8 +81,8 @@ def arc_parts(arc: Arc, grid: Grid, first: float = 0.0, last: float = 1.0) -> It
     sweep, radius = arc.sweep * (last - first), grid.fine(arc.radius)
     (cx, cy), (x, y) = arc.center, grid.point(start)
     i, j = (
-        round((grid.fine(cx) - x) * 10**CENTER_EXTRA_DECIMALS),
-        round((grid.fine(cy) - y) * 10**CENTER_EXTRA_DECIMALS),
+        round((grid.fine(cx) - x) * 10**EXTRA_CENTER_DECIMALS),
+        round((grid.fine(cy) - y) * 10**EXTRA_CENTER_DECIMALS),
     )
     height = radius * (1.0 - cos(sweep / 2) if abs(sweep) <= pi else 2.0)
     if radius >= MIN_RADIUS and _survives(start, end, (i, j), sweep, radius, grid):
@@ -109,7 +109,7 @@ def _survives(start: Point, end: Point, center: Steps, sweep: float, radius: flo
         return abs(sweep) == tau
     if first == last or max(abs(end[0] - start[0]), abs(end[1] - start[1])) <= CLOSED:
         return False
-    i, j = center[0] / 10**CENTER_EXTRA_DECIMALS, center[1] / 10**CENTER_EXTRA_DECIMALS
+    i, j = center[0] / 10**EXTRA_CENTER_DECIMALS, center[1] / 10**EXTRA_CENTER_DECIMALS
     away = (last[0] - first[0] - i, last[1] - first[1] - j)
     turn = 1 if sweep > 0.0 else -1
     turned = turn * (atan2(away[1], away[0]) - atan2(-j, -i)) % tau

@@ -20,7 +20,7 @@ from core.controls.write.contour_pass import CenterMove
 from core.controls.write.iso_program import CORNER_TOLERANCE, speed_text
 from core.finding import Finding
 from core.geometry.piece import Arc, Turn
-from core.output.grid import CENTER_EXTRA_DECIMALS, Grid, arc_parts, feed_text, length_text
+from core.output.grid import EXTRA_CENTER_DECIMALS, Grid, arc_parts, feed_text, length_text
 from core.output.objections import OVERRIDE_PHRASE, overridable_errors, posting_errors
 from core.output.passes import Cutter, Job, Pass, at_one_safe_z, clear_height, passes
 from core.program.model import Coolant
@@ -84,7 +84,7 @@ class _MoveWriter:
             if part.center is None:
                 yield from self.move("G1", end, feed)
             else:
-                i, j = (self.grid.text(steps, CENTER_EXTRA_DECIMALS) for steps in part.center)
+                i, j = (self.grid.text(steps, EXTRA_CENTER_DECIMALS) for steps in part.center)
                 yield from self.move("G3" if motion.turn > 0 else "G2", end, feed, f" I{i} J{j}")
 
     def move(self, word: str, end: Place, feed: str, center: str = "") -> Iterator[str]:

@@ -26,8 +26,8 @@ PAGE_COLUMNS: Final = 78
 LABEL_COLUMNS: Final = 18
 """Columns of a label in the plain text."""
 READY_TEXT: Final = "READY to post."
-READY_BUT: Final = "READY to post. Know before you run it:"
-NOT_READY: Final = "NOT READY. DO NOT RUN THIS PROGRAM AS IT IS:"
+READY_BUT_TEXT: Final = "READY to post. Know before you run it:"
+NOT_READY_TEXT: Final = "NOT READY. DO NOT RUN THIS PROGRAM AS IT IS:"
 STYLE: Final = """\
 body { font: 14px/1.4 sans-serif; color: #1b1f23; max-width: 60em; margin: 2em auto; padding: 0 1em }
 h1 { font-size: 1.5em } h2 { font-size: 1.15em; border-bottom: 1px solid; margin-top: 2em }
@@ -74,8 +74,8 @@ class Sheet:
     def verdict(self) -> tuple[str, tuple[str, ...]]:
         """The line that says whether the program is ready, and the sentences below it."""
         if self.errors:
-            return NOT_READY, self.errors
-        return (READY_BUT, self.notes) if self.notes else (READY_TEXT, ())
+            return NOT_READY_TEXT, self.errors
+        return (READY_BUT_TEXT, self.notes) if self.notes else (READY_TEXT, ())
 
 
 def sheet(jobs: Sequence[Job], unit: Unit, program: str, part: str = "", day: str = "") -> Sheet:

@@ -20,7 +20,7 @@ from core.units import from_mm, to_mm
 SVG_DECIMALS: Final = 6
 DRAWING_WIDTH: Final = 960
 """Width of the drawing on a screen in pixels; the height follows from it."""
-TEXT_HEIGHT: Final = 0.024
+TEXT_HEIGHT_SHARE: Final = 0.024
 """Height of letters as a fraction of the drawing's larger side."""
 MARGIN_SHARE: Final = 0.06
 
@@ -64,16 +64,16 @@ def svg(scene: Scene, *, title: str) -> str:
     x0, y0, x1, y1 = scene.bounds or (-1.0, -1.0, 1.0, 1.0)
     size = max(x1 - x0, y1 - y0) or 1.0
     roles = _roles(scene)
-    margin, line = size * MARGIN_SHARE, size * TEXT_HEIGHT * 1.6
+    margin, line = size * MARGIN_SHARE, size * TEXT_HEIGHT_SHARE * 1.6
     box = (x0 - margin, y0 - margin - line * (len(roles) + 1), x1 + margin, y1 + margin + line)
     lines = (
         *_head(box, title),
         *_axes(scene, (x0 - margin / 2, y0 - margin / 2, x1 + margin / 2, y1 + margin / 2)),
         *(_path(part, layer) for layer in scene.layers for part in layer.parts),
         *(_circle(circle) for circle in scene.circles if _finite(*circle.center, circle.radius)),
-        *(_mark(mark, size * TEXT_HEIGHT) for mark in scene.marks if _finite(*mark.at)),
-        _text((x0, y1 + margin), title, size * TEXT_HEIGHT * 1.2),
-        *_legend(roles, (x0, y0 - margin - line), size * TEXT_HEIGHT, line),
+        *(_mark(mark, size * TEXT_HEIGHT_SHARE) for mark in scene.marks if _finite(*mark.at)),
+        _text((x0, y1 + margin), title, size * TEXT_HEIGHT_SHARE * 1.2),
+        *_legend(roles, (x0, y0 - margin - line), size * TEXT_HEIGHT_SHARE, line),
         *_scale(scene, (x1, y0 - margin - line), size),
         "</svg>",
     )
@@ -196,7 +196,7 @@ def _scale(scene: Scene, corner: Point, size: float) -> Iterator[str]:
     """Yield a bar of a round length in program units, at the right."""
     if scene.unit is None:
         return
-    (x, y), letters = corner, size * TEXT_HEIGHT
+    (x, y), letters = corner, size * TEXT_HEIGHT_SHARE
     length, decimals = round_length(from_mm(size * 0.25, scene.unit))
     left = x - to_mm(length, scene.unit)
     ends = " ".join(f"M{_at((end, y))} L{_at((end, y + letters))}" for end in (left, x))

@@ -34,7 +34,7 @@ NOT_FOLLOWED: Final = (
 """Rules that stop the reading of the program, not the control."""
 EMPTY_CODE: Final = "EMPTY"
 """The rule of a program with nothing to run."""
-SHALLOW_SHARE: Final = 0.01
+SHALLOW_GOUGE_SHARE: Final = 0.01
 """A gouge is shallow below this fraction of the tool's radius."""
 
 _NO_SIZE: Final = re.compile(r"(?:[Tt]ool table has no tool|Offset) (\d+)|diameter of tool (.+) is (?:unknown|not)")
@@ -192,7 +192,7 @@ def _is_of_no_use(fits: Finding, row: Answer, done: ControlRun) -> bool:
     LinuxCNC leaves such gouges at nearly tangent joints of a drawing's short lines, with any tool in use.
     """
     radius = max((stretch.radius for stretch in done.stretches), default=0.0)
-    return row.gouge is not None and row.gouge[0] < SHALLOW_SHARE * radius and fits.lengths[0] < radius
+    return row.gouge is not None and row.gouge[0] < SHALLOW_GOUGE_SHARE * radius and fits.lengths[0] < radius
 
 
 def _only_leads_gouge(row: Answer, done: ControlRun) -> bool:

@@ -46,7 +46,7 @@ DRAWN_AGAIN: Final = frozenset({Style.UNCUT, Style.GOUGE})
 """Roles of layers that repeat parts of the surface: they cannot widen the bounds of a drawing."""
 OF_SURFACE: Final = frozenset({Style.SURFACE, Style.UNCUT, Style.DELETED, Style.CURRENT, Style.UNTAKEN})
 """Roles of the surface and of its faults."""
-LOUPE_HEIGHT: Final = 4.6
+LOUPE_HEIGHT_RADII: Final = 4.6
 """Height of a loupe in tool radii."""
 FEWEST_DOTS: Final = 2.6
 """The tool's path is drawn next to the surface only if the tool radius has at least this many dots."""
@@ -188,7 +188,7 @@ def _view_of(subject: Subject, bounds: Box, columns: int, rows: int) -> View:
     whole = View.fit(bounds, columns, rows)
     if subject.near is None or not subject.block.radius:
         return whole
-    loupe = View(subject.near, LOUPE_HEIGHT * subject.block.radius / (rows * CELL_HEIGHT))
+    loupe = View(subject.near, LOUPE_HEIGHT_RADII * subject.block.radius / (rows * CELL_HEIGHT))
     return whole if loupe.scale >= whole.scale else loupe.over(subject.near, bounds, columns, rows)
 
 

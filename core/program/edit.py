@@ -75,7 +75,7 @@ def type_field(program: Program, where: FormPlace, name: str, typed: Typed) -> E
     if refusal:
         return refusal
     edited = with_part(program, where, _typed_into(part, name, typed))
-    if isinstance(part, Block) or name in FIELDS_WITHOUT_SHAPE or type(typed) is type(getattr(part, name)):
+    if isinstance(part, Block) or name in NONGEOMETRIC_FIELDS or type(typed) is type(getattr(part, name)):
         return edited
     return _picked_anew(program, edited, where)
 
@@ -110,7 +110,7 @@ def choose(program: Program, where: FormPlace, name: str, value: str | int | Non
     return chosen if isinstance(part, Block) else _run_picked_anew(program, chosen, where)
 
 
-FIELDS_WITHOUT_SHAPE: Final = ("z_end", "feed", "pick_x", "pick_y")
+NONGEOMETRIC_FIELDS: Final = ("z_end", "feed", "pick_x", "pick_y")
 """The fields of a segment that do not affect which solutions it has."""
 
 

@@ -10,11 +10,11 @@ import numpy as np
 
 from core.finding import Finding, Severity
 from core.geometry.path import Path
-from core.tolerance import GOUGE, SMALLEST_SHOWN, STOCK
+from core.tolerance import GOUGE, SMALLEST_SHOWN_LENGTH, STOCK
 from core.verify.air_cuts import AirCut
 from core.verify.verdict import Gouge, OverRun, Uncut, UnevenArc, Verdict
 
-LAST_DIGIT: Final = 0.00254
+LAST_INCH_DIGIT: Final = 0.00254
 """Millimeters: the last digit of a form in inches."""
 
 MAX_NAMED_CORNERS: Final = 6
@@ -102,7 +102,7 @@ def or_more(gouge: Gouge, radius: float) -> str:
 
 def _gouge(gouge: Gouge, names: Names, radius: float) -> Finding:
     """Return the finding on a gouge: its segment is the surface's, `lengths` holds the length of path that gouges."""
-    fine = gouge.depth < SMALLEST_SHOWN
+    fine = gouge.depth < SMALLEST_SHOWN_LENGTH
     depth = "less than {1}" if fine else "{value}" + or_more(gouge, radius)
     move = names(gouge.path_piece, gouge.path_number)
     return Finding(
@@ -112,7 +112,7 @@ def _gouge(gouge: Gouge, names: Names, radius: float) -> Finding:
         segment=gouge.surface_number,
         at=gouge.surface_at,
         value=gouge.depth,
-        lengths=(gouge.extent, LAST_DIGIT) if fine else (gouge.extent,),
+        lengths=(gouge.extent, LAST_INCH_DIGIT) if fine else (gouge.extent,),
     )
 
 
@@ -206,7 +206,7 @@ def _corners(corners: Sequence[Uncut]) -> Finding:
     )
     more = f" and {len(corners) - MAX_NAMED_CORNERS} more" if len(corners) > MAX_NAMED_CORNERS else ""
     areas = [corner.area for corner in corners if corner.area is not None]
-    thick = "{0}" if corners[0].thickness >= SMALLEST_SHOWN else "less than {1}"
+    thick = "{0}" if corners[0].thickness >= SMALLEST_SHOWN_LENGTH else "less than {1}"
     return Finding(
         "UNCUT",
         Severity.INFO,
@@ -214,7 +214,7 @@ def _corners(corners: Sequence[Uncut]) -> Finding:
         segment=corners[0].first_number,
         at=corners[0].thickest,
         value=sum(corner.length for corner in corners),
-        lengths=(corners[0].thickness, LAST_DIGIT),
+        lengths=(corners[0].thickness, LAST_INCH_DIGIT),
         area=sum(areas) if len(areas) == len(corners) else None,
     )
 
@@ -228,7 +228,7 @@ def _uncut(uncut: Uncut, surface: Path) -> Finding:
     if isinf(uncut.thickness):
         text = f"UNCUT: nothing of {where} is cut. There is no path."
     else:
-        thick = "{0}" if uncut.thickness >= SMALLEST_SHOWN else "less than {1}"
+        thick = "{0}" if uncut.thickness >= SMALLEST_SHOWN_LENGTH else "less than {1}"
         text = f"UNCUT {thick} thick, {{value}} long, {where} at X {{x}} Y {{y}}."
     return Finding(
         "UNCUT",
@@ -237,7 +237,7 @@ def _uncut(uncut: Uncut, surface: Path) -> Finding:
         segment=uncut.first_number,
         at=uncut.thickest,
         value=uncut.length,
-        lengths=() if isinf(uncut.thickness) else (uncut.thickness, LAST_DIGIT),
+        lengths=() if isinf(uncut.thickness) else (uncut.thickness, LAST_INCH_DIGIT),
         area=uncut.area,
     )
 

@@ -190,7 +190,7 @@ async def test_only_the_beginning_of_a_programs_errors_is_logged(
         await page.close()
         assert await none_left(started, 5.0) == []
     complaints = [len(record.getMessage()) for record in caplog.records if record.levelname == "ERROR"]
-    assert complaints == [web_children.LARGEST_COMPLAINT]
+    assert complaints == [web_children.MAX_COMPLAINT_BYTES]
 
 
 def handshake(root: str) -> bytes:

@@ -27,7 +27,7 @@ _FEEDS_OUT: Final = (740, 840, 850, 890)
 _BORING_CYCLE: Final = 850
 _TAPPING_CYCLES: Final = (740, 840)
 _DWELL_CYCLES: Final = (820, 860, 890)
-_NOT_FOLLOWED: Final = (870, 880)
+_CYCLES_NOT_FOLLOWED: Final = (870, 880)
 
 DrillMove = tuple[Point3, bool]
 """The end of a straight move, and whether it is a rapid."""
@@ -53,7 +53,7 @@ class Hole:
 def drill(state: ModalState, block: Block) -> Iterator[DrillMove]:
     """Yield the moves of a block of the cycle in force; a block that lacks a word stops the run."""
     code = state.mode or 0
-    if not state.dialect.cycles or code in _NOT_FOLLOWED:
+    if not state.dialect.cycles or code in _CYCLES_NOT_FOLLOWED:
         text = "cutcomp follows this cycle's hole positions but not its depth."
         state.log.tell(Severity.WARNING, "CYCLE", text, block.line, 1)
         first, second, _ = flat(state.target(block.words), state.plane)

@@ -63,7 +63,6 @@ class Code:
 
 
 PLANE_OF_CODE: Final[Mapping[int, Plane]] = MappingProxyType({170: Plane.XY, 180: Plane.ZX, 190: Plane.YZ})
-"""The plane that each plane code selects."""
 
 CodeGroup = tuple[str, CodeAction, tuple[int, ...]]
 

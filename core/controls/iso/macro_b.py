@@ -185,7 +185,6 @@ _FUNCTIONS: Final[Mapping[str, Callable[[float], float]]] = MappingProxyType(
 )
 _FUNCTION: Final = re.compile(r"([A-Z]{2,5})\[")
 _LENGTH_LETTERS: Final = frozenset("IJKQRUVWXYZ")
-"""The letters of words that are lengths."""
 INCREMENTS: Final = MappingProxyType({"20": 0.0001, "21": 0.001})
 """The least increment of a length in the unit that each G code chooses."""
 

@@ -26,10 +26,10 @@ from core.controls.moves import Plane, Point3, flat, solid
 from core.finding import Severity
 from core.units import Unit, from_mm, to_mm
 
-_LENGTH_OFFSETS: Final = 10
-_LENGTH_WEAR: Final = 11
-_RADIUS_OFFSETS: Final = 12
-_RADIUS_WEAR: Final = 13
+_LENGTH_OFFSET_L: Final = 10
+_LENGTH_WEAR_L: Final = 11
+_RADIUS_OFFSET_L: Final = 12
+_RADIUS_WEAR_L: Final = 13
 """The L of G10 that writes each memory of tool offsets."""
 
 EXTENDED_SYSTEM: Final = 100_000
@@ -149,7 +149,7 @@ class MacroMachine(Machine):
     def __init__(self, dialect: Dialect, control: Control, tools: ToolTable, log: Log) -> None:
         super().__init__(dialect, control, tools, log)
         self.memories: dict[int, dict[int, float]] = {
-            kind: {} for kind in (_LENGTH_OFFSETS, _LENGTH_WEAR, _RADIUS_OFFSETS, _RADIUS_WEAR)
+            kind: {} for kind in (_LENGTH_OFFSET_L, _LENGTH_WEAR_L, _RADIUS_OFFSET_L, _RADIUS_WEAR_L)
         }
         self.separate = dialect.diameters_apart
         self.transform = Transform()
@@ -485,7 +485,7 @@ class MacroMachine(Machine):
         if number is None or number < 0:
             self.log.stop("PS0031", "G10 needs P and the number of the offset.", block.line, block.column("GP"))
         if kind == 1 or kind in self.memories:
-            self._set_offset(_LENGTH_OFFSETS if kind == 1 else kind, number, block)
+            self._set_offset(_LENGTH_OFFSET_L if kind == 1 else kind, number, block)
         elif kind == 2 and number <= 6:
             self._set_work_offset(530 + 10 * number if number else EXTERNAL_OFFSET, block)
         elif kind == 20 and 1 <= number <= 300:
@@ -506,13 +506,13 @@ class MacroMachine(Machine):
         if "R" not in block.words:
             self.log.stop("PS0032", "G10 needs R and the value of the offset.", block.line, block.column("GL"))
         self._write_offset(kind, number, block.words["R"] * self.scale / self._radii_in(kind), add=self.incremental)
-        if kind not in (_RADIUS_OFFSETS, _RADIUS_WEAR) and not self.separate:
+        if kind not in (_RADIUS_OFFSET_L, _RADIUS_WEAR_L) and not self.separate:
             text = "Lengths and radii are taken to share one memory, so this value is a radius for D too."
             self.log.tell(Severity.INFO, "FN-SHARED", text, block.line, block.column("L"))
 
     def _radii_in(self, kind: int) -> float:
         """Return how many radii a value of this L is; warn once if it is 2, a diameter."""
-        if kind not in (_RADIUS_OFFSETS, _RADIUS_WEAR) or not self.dialect.diameters_apart:
+        if kind not in (_RADIUS_OFFSET_L, _RADIUS_WEAR_L) or not self.dialect.diameters_apart:
             return 1.0
         if not self.log.has("HAAS-DIAMETER"):
             text = "D is taken as a diameter (setting 40 DIAMETER). With RADIUS the control uses twice this offset."
@@ -521,11 +521,11 @@ class MacroMachine(Machine):
 
     def _write_offset(self, kind: int, number: int, value: float, *, add: bool = False) -> None:
         """Write a value in millimeters, or add it, to the memory of an L, and to that of D while they share one."""
-        if kind in (_RADIUS_OFFSETS, _RADIUS_WEAR):
+        if kind in (_RADIUS_OFFSET_L, _RADIUS_WEAR_L):
             self.separate = True
-        radii, kinds = self.memories[_RADIUS_OFFSETS], [kind]
+        radii, kinds = self.memories[_RADIUS_OFFSET_L], [kind]
         if not self.separate:
-            kinds.append(_RADIUS_WEAR if kind == _LENGTH_WEAR and number in radii else _RADIUS_OFFSETS)
+            kinds.append(_RADIUS_WEAR_L if kind == _LENGTH_WEAR_L and number in radii else _RADIUS_OFFSET_L)
         before = self._geometry_radius(number) or 0.0
         for memory in (self.memories[each] for each in kinds):
             known = memory.get(number, before if memory is radii else 0.0)
@@ -534,12 +534,12 @@ class MacroMachine(Machine):
     def offset_radius(self, number: int) -> float | None:
         """Return the radius of a D in millimeters, wear included; None if neither program nor table has it."""
         radius = self._geometry_radius(number)
-        wear = self.memories[_RADIUS_WEAR].get(number, 0.0)
+        wear = self.memories[_RADIUS_WEAR_L].get(number, 0.0)
         return wear if radius is None and wear else None if radius is None else radius + wear
 
     def _geometry_radius(self, number: int) -> float | None:
         """Return the radius of a D without its wear: the program's, else that of the tool in the table."""
-        radius, tool = self.memories[_RADIUS_OFFSETS].get(number), self.tools.get(number)
+        radius, tool = self.memories[_RADIUS_OFFSET_L].get(number), self.tools.get(number)
         return tool.diameter_mm(self.unit) / 2 if radius is None and tool is not None else radius
 
     # variables
@@ -594,18 +594,18 @@ class MacroMachine(Machine):
         """Return the L of G10 that writes a variable's memory, and the offset's number in it; None for any other."""
         if self.dialect.diameters_apart:
             row, index = divmod(key - 2001, 200)
-            return (_LENGTH_OFFSETS + row, index + 1) if 0 <= row < 4 else None
+            return (_LENGTH_OFFSET_L + row, index + 1) if 0 <= row < 4 else None
         if 2001 <= key <= 2400:
-            return (_LENGTH_OFFSETS, key - 2200) if key > 2200 else (_LENGTH_WEAR, key - 2000)
-        kinds = {10: _LENGTH_WEAR, 11: _LENGTH_OFFSETS, 12: _RADIUS_WEAR, 13: _RADIUS_OFFSETS}
+            return (_LENGTH_OFFSET_L, key - 2200) if key > 2200 else (_LENGTH_WEAR_L, key - 2000)
+        kinds = {10: _LENGTH_WEAR_L, 11: _LENGTH_OFFSET_L, 12: _RADIUS_WEAR_L, 13: _RADIUS_OFFSET_L}
         return (kinds[key // 1000], key % 1000) if 10_001 <= key <= 13_999 else None
 
     def _offset_variable(self, kind: int, number: int) -> float:
         memory, tool = self.memories[kind], self.tools.get(number)
         value = memory.get(number, 0.0)
-        if kind == _RADIUS_OFFSETS:
+        if kind == _RADIUS_OFFSET_L:
             value = self._geometry_radius(number) or 0.0
-        elif kind == _LENGTH_OFFSETS and number not in memory:
+        elif kind == _LENGTH_OFFSET_L and number not in memory:
             value = to_mm(tool.length, tool.unit or self.unit) if tool else 0.0
         return from_mm(value * self._radii_in(kind), self.unit)
 

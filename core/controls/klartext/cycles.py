@@ -42,7 +42,7 @@ _PATTERN_CYCLES: Final = frozenset((220, 221))
 _DRILLING_CYCLES: Final = frozenset((*range(200, 208), 209, 240, 241))
 _TAPPING_CYCLES: Final = frozenset((1, 2, 17, 18))
 _RETURNING_CYCLES: Final = _TAPPING_CYCLES | {3, 4, 5, 212, 213, 214, 215}
-_NOT_CALLED: Final = frozenset((9, 13, 14, 20, 32, 39))
+_CYCLES_WITHOUT_CALL: Final = frozenset((9, 13, 14, 20, 32, 39))
 """Cycles without a call: a dwell, an orientation, data of a contour or a tolerance."""
 
 _CONTOUR_CYCLES: Final = frozenset((6, 16, 22, 23, 24, 25, *range(271, 277)))
@@ -98,7 +98,7 @@ def _define(state: State, block: Block, number: int) -> None:
         return
     _take_values(state, block)
     text = f"Cycle {number} is skipped: it moves nothing."
-    if number not in _NOT_CALLED:
+    if number not in _CYCLES_WITHOUT_CALL:
         state.cycle = number
         text = f"Cycle {number} is skipped: it moves nothing before it is called."
     state.tell(Severity.INFO, "IGNORED", text, block)

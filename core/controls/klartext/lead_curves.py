@@ -18,7 +18,7 @@ from core.geometry.construct import rotated
 from core.geometry.piece import Point
 from core.tolerance import JOINED
 
-MIN_SHARE_INSIDE: Final = 1e-12
+MAX_ROUNDING_SHARE: Final = 1e-12
 """Share of the radius by which rounding may put the start of an LCT inside its circle."""
 
 
@@ -77,7 +77,7 @@ def _tangent_arc(radius: float, start: Point, end: Point, way: Point, hand: int)
     center = offset_point(end, way, hand * radius)
     dx, dy = start[0] - center[0], start[1] - center[1]
     distance = hypot(dx, dy)
-    if distance < radius * (1.0 - MIN_SHARE_INSIDE):
+    if distance < radius * (1.0 - MAX_ROUNDING_SHARE):
         return None
     # Seen from the center PH lies ahead of PS by the angle whose cosine is radius / distance.
     angle = atan2(dy, dx) + hand * acos(min(1.0, radius / distance))

@@ -107,7 +107,7 @@ SHARED_OFFSETS: Final = (20, 30, 40, 50, 60, 100)
 _PLANE_LETTERS: Final = ("XY", "ZX", "YZ")
 _NEW_ORIGIN: Final = frozenset((520, 920, 540, 541, 550, 560, 570, 580, 590, 1540, *HAAS_SYSTEMS))
 _HOME_CODES: Final = frozenset((280, 300))
-_TO_MACHINE: Final = _HOME_CODES | {530}
+_MACHINE_POSITION_CODES: Final = _HOME_CODES | {530}
 _UNBUFFERED_G: Final = frozenset((280, 300, 310, 530))
 _UNBUFFERED_M: Final = frozenset((0, 10, 20, 300))
 _CALL_CODES: Final = frozenset((980, 990))
@@ -379,7 +379,7 @@ class Fanuc(VectorQueue, Control):
     def _leave_for_a_while(self, block: Block) -> None:
         """At a new origin or a move to a machine point, turn compensation off until the next move in the plane."""
         moved = any(letter in block.words for letter in _PLANE_LETTERS[self.plane])
-        away = moved and not _TO_MACHINE.isdisjoint(block.g)
+        away = moved and not _MACHINE_POSITION_CODES.isdisjoint(block.g)
         new_origin = not _NEW_ORIGIN.isdisjoint(block.g) or (100 in block.g and block.words.get("L") in (2.0, 20.0))
         if not away and not new_origin:
             return

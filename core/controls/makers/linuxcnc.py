@@ -152,7 +152,7 @@ class LinuxCnc(OneMoveQueue, Control):
                     f"M{code / 10:g} {what}, which is not allowed under compensation; write G40 in a block before it."
                 )
                 self.log.stop(rule, text, block.line, column)
-            if code == _SET_TOOL:
+            if code == _SET_TOOL_CODE:
                 self._set_tool(block)
             if code in _RESTORE_CODES:
                 text = f"cutcomp does not restore what M{code / 10:g} restores. Write the codes themselves."
@@ -203,7 +203,7 @@ class LinuxCnc(OneMoveQueue, Control):
         number = whole(block.words.get("Q", -1.0))
         if number is None or number < 0:
             text = "M61 needs Q and the number of the tool that is in the spindle."
-            self.log.stop("N-WORDALONE", text, block.line, block.column("M", _SET_TOOL))
+            self.log.stop("N-WORDALONE", text, block.line, block.column("M", _SET_TOOL_CODE))
         if number and self.machine.tools.get(number) is None:
             self.log.stop("TOOL", missing_tool(number), block.line, block.column("Q"))
         self.machine.tool = number
@@ -216,7 +216,7 @@ class LinuxCnc(OneMoveQueue, Control):
 
     def _arc_words(self, block: Block) -> None:
         """Stop the run at I, J, K or R in a straight move, unless G10, G64 or M19 uses them."""
-        if self._motion(block) in (0, 10) and not {100, 640}.intersection(block.g) and _ORIENT_SPINDLE not in block.m:
+        if self._motion(block) in (0, 10) and not {100, 640}.intersection(block.g) and _ORIENT_CODE not in block.m:
             column = block.column("IJKR")
             text = "I, J, K and R go with G2 and G3 only. Remove them."
             self.log.stop("N-WORDALONE", text, block.line, column)
@@ -301,8 +301,8 @@ class LinuxCnc(OneMoveQueue, Control):
 
 _G80: Final = 800
 _G10: Final = 100
-_ORIENT_SPINDLE: Final = 190
-_SET_TOOL: Final = 610
+_ORIENT_CODE: Final = 190
+_SET_TOOL_CODE: Final = 610
 _LATHE_CODES: Final = frozenset((70, 80))
 _SHIFT_CANCEL_CODES: Final = frozenset((921, 922, 923))
 _RESTORE_CODES: Final = frozenset((720, 730))

@@ -48,7 +48,7 @@ SHORTEST_BLOCK_SECONDS: Final = 0.25
 LARGEST_DIAMETER: Final = 83.23072
 """Millimeters (3.2768 in); the 83.321 mm printed next to it has two digits swapped."""
 
-_ORIGIN_CODES: Final = frozenset((40, 280, 300, 920, 540, 550, 560, 570, 580, 590, 200, 210, 700, 710))
+_REFUSED_UNDER_COMPENSATION: Final = frozenset((40, 280, 300, 920, 540, 550, 560, 570, 580, 590, 200, 210, 700, 710))
 _POINTLESS: Final = re.compile(r"[XYZIJ][ \t]*[-+]?0*[1-9][0-9]*(?![0-9.])", re.IGNORECASE)
 
 
@@ -93,7 +93,7 @@ class ThreeBlock(ElementQueue, Control):
             self.log.stop("B14-MCODE", text, block.line, block.column("M"))
         if not {180, 190}.isdisjoint(block.g) and 170 not in block.g:
             self.wrong_plane(block)
-        wrong = next((code for code in block.g if code in _ORIGIN_CODES), None)
+        wrong = next((code for code in block.g if code in _REFUSED_UNDER_COMPENSATION), None)
         if wrong is not None:
             text = f"cutcomp does not know what compensation does at G{wrong / 10:g}. Write G40 before it."
             self.log.stop("ORIGIN", text, block.line, block.column("G", wrong))

@@ -39,13 +39,11 @@ PROPOSAL_KEYS: Final = ("speed", "feed", "plunge_feed", "coolant")
 """The keys of a tool that format 1 does not have."""
 
 BLOCK_KIND: Final = "MILL CONTOUR"
-"""The kind of every block."""
 
 UNREAD_TABLE: Final = "unread"
 """The table of typed texts that could not be read."""
 
 LAST_LINE: Final = "# end of program"
-"""The last line of a program file."""
 
 FIRST_LINE: Final = f'# its last line is "{LAST_LINE}"'
 """The comment on the first line, by which a truncated file is recognized."""

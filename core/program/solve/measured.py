@@ -10,7 +10,7 @@ from core.units import Unit, from_mm
 
 ANGLE_FIELDS: Final = ("angle", "start_angle", "sweep")
 """The names of the fields in radians."""
-WHOLE_TURN: Final = 1e-9
+FULL_TURN_GAP: Final = 1e-9
 """Radians below a whole turn at which a heading is 0 but for rounding."""
 
 
@@ -27,7 +27,7 @@ def measured(piece: Piece) -> dict[str, float]:
     (x, y), (x_end, y_end) = piece.start, piece.end
     values = {"x_end": x_end, "y_end": y_end, "x_end_inc": x_end - x, "y_end_inc": y_end - y}
     heading = heading_at(piece, piece.start) % tau
-    if tau - heading < WHOLE_TURN:
+    if tau - heading < FULL_TURN_GAP:
         heading = 0.0
     if isinstance(piece, Line):
         return values | {"length": piece.length, "angle": heading}

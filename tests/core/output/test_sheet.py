@@ -8,7 +8,7 @@ from xml.etree import ElementTree
 from core.finding import Finding, Severity
 from core.geometry.piece import Turn
 from core.output.passes import CenterPath, Cutter, Job
-from core.output.sheet import NOT_READY, PAGE_COLUMNS, READY_TEXT, Sheet, as_page, as_text, sheet
+from core.output.sheet import NOT_READY_TEXT, PAGE_COLUMNS, READY_TEXT, Sheet, as_page, as_text, sheet
 from core.program.model import Coolant
 from core.units import Unit
 from tests.core.output.jobs import INCH, arc, floors, job, path_of, polyline
@@ -99,7 +99,7 @@ def test_a_gouge_makes_the_sheet_say_do_not_run_and_keeps_the_depths():
     setup_sheet = sheet_of(gouging())
     assert setup_sheet.errors == ("Block 1, segment 1: gouges by 0.2500 (deep).",)
     assert len(setup_sheet.blocks[0].table) == 4
-    assert NOT_READY in as_text(setup_sheet)
+    assert NOT_READY_TEXT in as_text(setup_sheet)
     assert READY_TEXT not in as_text(setup_sheet)
     assert "LOOKAHEAD          CAL 2" in as_text(setup_sheet)
 
@@ -113,7 +113,7 @@ def test_a_block_that_cannot_be_cut_has_no_passes_and_a_reason():
 
 def test_a_program_without_blocks_is_not_ready():
     assert sheet_of().errors == ("There is no block to post.",)
-    assert NOT_READY in as_text(sheet_of())
+    assert NOT_READY_TEXT in as_text(sheet_of())
 
 
 def test_the_text_fits_the_page_and_has_no_control_characters():
@@ -140,7 +140,7 @@ def test_names_on_the_page_are_escaped():
     assert "<script" not in page
     assert "&lt;script&gt;" in page
     assert "\x1b" not in page
-    assert NOT_READY in page
+    assert NOT_READY_TEXT in page
 
 
 def test_a_finding_on_the_page_has_only_the_mark_of_its_severity():
@@ -310,7 +310,9 @@ def test_a_whole_sheet_is_written_as_a_page():
 
 def test_a_page_that_is_not_ready_gives_the_reason():
     page = as_page(sheet_of(gouging()), [""])
-    against = f'<div class="bad">{NOT_READY}<ul>\n<li>Block 1, segment 1: gouges by 0.2500 (deep).</li>\n</ul></div>'
+    against = (
+        f'<div class="bad">{NOT_READY_TEXT}<ul>\n<li>Block 1, segment 1: gouges by 0.2500 (deep).</li>\n</ul></div>'
+    )
     assert against in page
     assert READY_TEXT not in page
 

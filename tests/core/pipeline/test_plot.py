@@ -11,7 +11,7 @@ from core.draw.characters import Mode
 from core.draw.scene import Style
 from core.draw.view import CELL_HEIGHT, View
 from core.pipeline.derive import derive, look_ahead_table
-from core.pipeline.plot import LOUPE_HEIGHT, Subject, block_scene, nearest_segment, svg_of
+from core.pipeline.plot import LOUPE_HEIGHT_RADII, Subject, block_scene, nearest_segment, svg_of
 from core.program.model import ArcSegment, CutterComp, Direction, LineSegment, Number, PathChoice
 from core.units import Unit
 from tests.core.pipeline.parts import MID_SIDE_SQUARE, NOTCH, OVER_RUN_SQUARE, block, program
@@ -101,7 +101,7 @@ def test_a_loupe_shows_a_few_tool_diameters_around_its_center():
         Subject(derived_block, Unit.IN, near=near).drawn(60, 20, Mode.BRAILLE).view for near in (None, (50.8, 0.0))
     )
     assert loupe.scale < whole.scale
-    assert 20 * CELL_HEIGHT * loupe.scale == pytest.approx(LOUPE_HEIGHT * 0.25 * 25.4)
+    assert 20 * CELL_HEIGHT * loupe.scale == pytest.approx(LOUPE_HEIGHT_RADII * 0.25 * 25.4)
 
 
 def test_the_legend_names_the_control_path_behind_the_best_path():

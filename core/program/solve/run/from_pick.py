@@ -22,7 +22,6 @@ from core.program.solve.run.search import MAX_SAME_DISTANCE, Answer, same_pieces
 from core.program.solve.run.typed_run import Run
 
 STARTS_PER_PICK: Final = 48
-"""Number of starts generated about a pick."""
 
 FARTHEST_PICK: Final = 0.4
 """Largest distance of an answer's joint from its pick, as a fraction of the run's size."""
