@@ -23,6 +23,7 @@ from app.session.block_findings import GOUGE_CODES, TO_TYPE, WAITING_CODES
 from app.session.posting import deleted_numbers, deleted_segments
 from app.session.words import length, segment_numbers, shortened
 from app.widgets.plain import PlainText
+from core.comp.lookahead import MAX_LOOKAHEAD
 from core.finding import Severity
 from core.pipeline.derived import DerivedBlock
 from core.units import Unit, sentence
@@ -31,7 +32,6 @@ if TYPE_CHECKING:
     from core.advice.lookahead_table import Row, Table
     from core.verify.verdict import Verdict as Judgment
 
-MAX_LOOKAHEAD: Final = 20
 CHIPS_WIDTH: Final = 58
 """The width in cells of the chips' line on the narrowest screens."""
 SHORTEST_CHIP: Final = 24
