@@ -6,7 +6,7 @@ from cmath import phase, rect
 from math import acos, inf, sqrt
 from typing import NamedTuple
 
-from core.geometry.piece import FULL_TURN_GAP, Arc, Piece, Point
+from core.geometry.piece import ANGLE_ROUNDING, Arc, Piece, Point
 from core.tolerance import JOINED
 
 
@@ -31,7 +31,7 @@ def meeting_places(first: Carrier, second: Carrier) -> list[complex]:
     if first.along and second.along:
         cross = (first.along.conjugate() * second.along).imag
         reach = ((second.at - first.at).conjugate() * second.along).imag
-        return [] if abs(cross) < FULL_TURN_GAP else [first.at + first.along * reach / cross]
+        return [] if abs(cross) < ANGLE_ROUNDING else [first.at + first.along * reach / cross]
     if second.along:
         return _line_meets_circle(second, first)
     return _line_meets_circle(first, second) if first.along else _circles_meet(first, second)

@@ -11,7 +11,7 @@ from dataclasses import dataclass
 from math import cos, hypot, sin, sqrt
 from typing import TYPE_CHECKING, TypeVar
 
-from core.geometry.piece import FULL_TURN_GAP, Arc, Point, Turn
+from core.geometry.piece import ANGLE_ROUNDING, Arc, Point, Turn
 from core.tolerance import ARC_RADII, CLOSED, GRAZE, JOINED, MIN_INDEPENDENT_SINE, ON_PATH
 
 if TYPE_CHECKING:
@@ -67,7 +67,7 @@ def ray_to_coordinate(
     """
     along = (cos(angle), sin(angle))
     rounded = abs(along[axis]) < MIN_INDEPENDENT_SINE and abs(value - start[axis]) <= ARC_RADII
-    if rounded or abs(along[axis]) < FULL_TURN_GAP:
+    if rounded or abs(along[axis]) < ANGLE_ROUNDING:
         return NotDetermined()
     travel = (value - start[axis]) / along[axis]
     if travel < 0.0:
@@ -126,7 +126,7 @@ def center_by_sweep(start: Point, end: Point, sweep: float, turn: Turn) -> OnePo
     """
     chord = hypot(end[0] - start[0], end[1] - start[1])
     half = sin(sweep / 2)
-    if chord <= ON_PATH or abs(half) < FULL_TURN_GAP:
+    if chord <= ON_PATH or abs(half) < ANGLE_ROUNDING:
         return NotDetermined()
     return OnePoint(_above(start, end, turn * chord / 2 * cos(sweep / 2) / half))
 

@@ -16,7 +16,7 @@ from typing import NamedTuple
 
 from core.geometry.carrier import carrier, meeting_places
 from core.geometry.construct import rotated
-from core.geometry.piece import FULL_TURN_GAP, Arc, Line, Piece, Point, Turn, point_of
+from core.geometry.piece import ANGLE_ROUNDING, Arc, Line, Piece, Point, Turn, point_of
 from core.tolerance import JOINED, ON_PATH
 
 
@@ -57,7 +57,7 @@ def fillet(before: Piece, after: Piece, radius: float) -> Corner | NoCorner:
     if abs(turned) * radius <= JOINED:
         return NoCorner(Reason.TANGENT)
     lines = isinstance(before, Line) and isinstance(after, Line)
-    if lines and abs(turned) > tau / 2 - FULL_TURN_GAP:
+    if lines and abs(turned) > tau / 2 - ANGLE_ROUNDING:
         return NoCorner(Reason.REVERSAL)
     turns = (Turn.CCW if turned > 0 else Turn.CW,) if lines else (Turn.CCW, Turn.CW)
     fits = [fit for turn in turns for fit in _touching(before, after, radius, turn)]

@@ -12,7 +12,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 from math import acos, atan2, cos, hypot, sin, sqrt, tau
 
-from core.geometry.piece import FULL_TURN_GAP, Point
+from core.geometry.piece import ANGLE_ROUNDING, Point
 from core.tolerance import ARC_RADII, GRAZE
 
 
@@ -92,7 +92,7 @@ def meeting(first: Locus, second: Locus) -> Meeting:
 def _lines(first: OrientedLine, second: OrientedLine) -> Meeting:
     (ax, ay), (bx, by) = first.normal, second.normal
     across = ax * by - ay * bx
-    if abs(across) < FULL_TURN_GAP:
+    if abs(across) < ANGLE_ROUNDING:
         apart = abs(first.offset - (second.offset if ax * bx + ay * by > 0.0 else -second.offset))
         return Meeting(coincident=apart <= ARC_RADII, apart=apart)
     x = (first.offset * by - second.offset * ay) / across
@@ -138,7 +138,7 @@ def headings_at_distances(first: Point, r: float, second: Point, s: float) -> tu
     """
     dx, dy = second[0] - first[0], second[1] - first[1]
     between, rise = hypot(dx, dy), s - r
-    if between <= FULL_TURN_GAP or abs(rise) - between > ARC_RADII:
+    if between <= ANGLE_ROUNDING or abs(rise) - between > ARC_RADII:
         return (), False
     toward = atan2(dy, dx)
     # the normal of a heading t is t + a quarter turn: sin(toward - t) = rise / between

@@ -17,7 +17,7 @@ from typing import Any, Final, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from core.geometry.piece import FULL_TURN_GAP, Arc, Line, Piece, Turn
+from core.geometry.piece import ANGLE_ROUNDING, Arc, Line, Piece, Turn
 
 Floats = NDArray[np.float64]
 Points = NDArray[np.complex128]
@@ -209,7 +209,7 @@ def swept(pieces: Pieces) -> Floats:
     turned = (pieces.end - pieces.center) * (pieces.start - pieces.center).conj()
     angle = np.arctan2(turned.imag * pieces.turn, turned.real)
     angle[angle < 0.0] += tau
-    angle[(angle > tau - FULL_TURN_GAP) | np.isnan(angle) | (pieces.turn == 0)] = 0.0
+    angle[(angle > tau - ANGLE_ROUNDING) | np.isnan(angle) | (pieces.turn == 0)] = 0.0
     angle[(pieces.start == pieces.end) & (pieces.turn != 0)] = tau
     return angle
 

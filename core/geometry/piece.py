@@ -19,8 +19,9 @@ def point_of(place: complex) -> Point:
     return float(place.real), float(place.imag)
 
 
-FULL_TURN_GAP: Final = 1e-9
-"""Radians: an arc that is short of a full turn by less is an empty arc with rounding, not a full circle."""
+ANGLE_ROUNDING: Final = 1e-9
+"""Radians by which rounding moves an angle: directions nearer than this are parallel, and an arc that is short of a
+full turn by less is an empty one."""
 
 
 class Turn(IntEnum):
@@ -76,7 +77,7 @@ class Arc:
         (x0, y0), (x1, y1), (cx, cy) = self.start, self.end, self.center
         first, last = atan2(y0 - cy, x0 - cx), atan2(y1 - cy, x1 - cx)
         swept = (int(self.turn) * (last - first)) % tau
-        return int(self.turn) * (0.0 if swept > tau - FULL_TURN_GAP else swept)
+        return int(self.turn) * (0.0 if swept > tau - ANGLE_ROUNDING else swept)
 
     @property
     def length(self) -> float:

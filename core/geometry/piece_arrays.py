@@ -16,7 +16,7 @@ from numpy.typing import NDArray
 
 from core.geometry.construct import on_bisector
 from core.geometry.path import Flags, Floats, Path, Pieces, Points, Rows, Turns, as_complex, boxes, swept
-from core.geometry.piece import FULL_TURN_GAP
+from core.geometry.piece import ANGLE_ROUNDING
 from core.tolerance import ON_PATH
 
 FEW_PAIRS: Final = 500
@@ -157,7 +157,7 @@ def _evened(start: Points, end: Points, center: Points, turn: Floats | Turns, of
     turned = (end - center) * np.conj(start - center)
     beyond = np.where(turned.imag * turn >= 0.0, between, center)
     moved = on_bisector(start, end, center)
-    on_one_ray = (np.abs(turned.imag) <= 2.0 * FULL_TURN_GAP * turned.real) & (turned.real > 0.0)
+    on_one_ray = (np.abs(turned.imag) <= 2.0 * ANGLE_ROUNDING * turned.real) & (turned.real > 0.0)
     return np.where(np.abs(moved - center) > off, beyond, moved), np.where(on_one_ray, np.inf, off)
 
 

@@ -14,7 +14,7 @@ from typing import TYPE_CHECKING, Any, Final, cast
 
 import numpy as np
 
-from core.geometry.piece import Line
+from core.geometry.piece import ANGLE_ROUNDING, Line
 from core.importing.curves import ends_of_spline
 from core.importing.drawing import (
     MAX_BYTES,
@@ -53,9 +53,6 @@ MAX_FLAT_Z_DIFFERENCE: Final = 1e-4
 
 LARGEST_SAGITTA: Final = 0.005
 """Largest sagitta, in the drawing's unit, of an arc read as a line because its center is out of range."""
-
-FULL_TURN_GAP: Final = 1e-9
-"""A sweep within this of 0 or of a full turn, in radians, is the full circle."""
 
 ROUNDED_TURN: Final = 1e-4
 """An end within this of a full turn after the begin, in radians, is a full turn whose angles were rounded."""
@@ -471,7 +468,7 @@ def _turned(begin: float, end: float) -> tuple[float, float]:
     """Return two angles as a counterclockwise turn; equal ones, or ones a full turn apart, give the full circle."""
     swept = (end - begin) % tau
     # not for a begin a full turn after the end: a short arc over angle 0 has such angles
-    if swept <= FULL_TURN_GAP or tau - swept <= FULL_TURN_GAP or abs(end - begin - tau) <= ROUNDED_TURN:
+    if swept <= ANGLE_ROUNDING or tau - swept <= ANGLE_ROUNDING or abs(end - begin - tau) <= ROUNDED_TURN:
         swept = tau
     return begin, begin + swept
 

@@ -80,10 +80,8 @@ def arc_parts(arc: Arc, grid: Grid, first: float = 0.0, last: float = 1.0) -> It
     start, end = (_point_at(arc, share) for share in (first, last))
     sweep, radius = arc.sweep * (last - first), grid.fine(arc.radius)
     (cx, cy), (x, y) = arc.center, grid.point(start)
-    i, j = (
-        round((grid.fine(cx) - x) * 10**EXTRA_CENTER_DECIMALS),
-        round((grid.fine(cy) - y) * 10**EXTRA_CENTER_DECIMALS),
-    )
+    finer = 10**EXTRA_CENTER_DECIMALS
+    i, j = round((grid.fine(cx) - x) * finer), round((grid.fine(cy) - y) * finer)
     height = radius * (1.0 - cos(sweep / 2) if abs(sweep) <= pi else 2.0)
     if radius >= MIN_RADIUS and _survives(start, end, (i, j), sweep, radius, grid):
         yield ArcPart(end, last, (i, j))

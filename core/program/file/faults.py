@@ -11,7 +11,7 @@ import re
 from collections.abc import Mapping
 from typing import Final
 
-from core.program.file.write import FIRST_LINE, LAST_LINE
+from core.program.file.write import LAST_LINE, LAST_LINE_NOTICE
 
 KeyPath = tuple[str | int, ...]
 """The path to a value: table names, indices from 0 in arrays of tables, the key."""
@@ -22,7 +22,7 @@ LONGEST_QUOTE: Final = 40
 _HEADER: Final = re.compile(r"\s*(\[\[?)\s*([\w.\s\"'-]+?)\s*\]\]?\s*(?:#.*)?$")
 _KEY: Final = re.compile(r"\s*([\w.\s\"'-]+?)\s*=")
 _BARE_KEY: Final = re.compile(r"\s*([A-Za-z_]+)\s*=")
-_PROMISED: Final = re.compile(rf"^[ \t]*format[ \t]*=[^\n]*{re.escape(FIRST_LINE)}", re.MULTILINE)
+_PROMISED: Final = re.compile(rf"^[ \t]*format[ \t]*=[^\n]*{re.escape(LAST_LINE_NOTICE)}", re.MULTILINE)
 _ENDED: Final = re.compile(rf"^[ \t]*{LAST_LINE}[ \t]*\r?$", re.MULTILINE)
 _TOML_FAULT: Final = re.compile(r"(.*) \(at (?:(line (\d+), column \d+)|end of document)\)", re.DOTALL)
 

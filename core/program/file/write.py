@@ -45,14 +45,14 @@ UNREAD_TABLE: Final = "unread"
 
 LAST_LINE: Final = "# end of program"
 
-FIRST_LINE: Final = f'# its last line is "{LAST_LINE}"'
+LAST_LINE_NOTICE: Final = f'# its last line is "{LAST_LINE}"'
 """The comment on the first line, by which a truncated file is recognized."""
 
 
 def dumps(program: Program) -> str:
     """Return the text of a program's file."""
     lines = [
-        f"format = {format_of(program)}  {FIRST_LINE}",
+        f"format = {format_of(program)}  {LAST_LINE_NOTICE}",
         f'units = "{program.unit}"  # every length and feed below is in it',
     ]
     lines += _table("[parameters]", "parameters", Form.PARAMETERS, program.parameters)

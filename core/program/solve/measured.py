@@ -5,13 +5,11 @@ from __future__ import annotations
 from math import atan2, degrees, tau
 from typing import Final
 
-from core.geometry.piece import Line, Piece, Point
+from core.geometry.piece import ANGLE_ROUNDING, Line, Piece, Point
 from core.units import Unit, from_mm
 
 ANGLE_FIELDS: Final = ("angle", "start_angle", "sweep")
 """The names of the fields in radians."""
-FULL_TURN_GAP: Final = 1e-9
-"""Radians below a whole turn at which a heading is 0 but for rounding."""
 
 
 def heading_at(piece: Piece, at: Point) -> float:
@@ -27,7 +25,7 @@ def measured(piece: Piece) -> dict[str, float]:
     (x, y), (x_end, y_end) = piece.start, piece.end
     values = {"x_end": x_end, "y_end": y_end, "x_end_inc": x_end - x, "y_end_inc": y_end - y}
     heading = heading_at(piece, piece.start) % tau
-    if tau - heading < FULL_TURN_GAP:
+    if tau - heading < ANGLE_ROUNDING:
         heading = 0.0
     if isinstance(piece, Line):
         return values | {"length": piece.length, "angle": heading}

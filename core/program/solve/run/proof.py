@@ -11,7 +11,7 @@ from math import dist, hypot, pi, sin, tau
 from core.finding import Finding
 from core.geometry import construct
 from core.geometry.oriented import OrientedLine, direction
-from core.geometry.piece import FULL_TURN_GAP, Arc, Line, Piece, Point
+from core.geometry.piece import ANGLE_ROUNDING, Arc, Line, Piece, Point
 from core.program.fields import LARGEST_LENGTH
 from core.program.solve.measured import ANGLE_FIELDS, heading_at, measured
 from core.program.solve.run import reasons
@@ -85,7 +85,7 @@ def _full(element: Element, start: Point) -> bool:
     """True if an arc that ends at its start is typed as a full circle: by SWEEP ANGLE, or with center and end."""
     known = element.known
     if "sweep" in known:
-        return known["sweep"] >= tau - FULL_TURN_GAP
+        return known["sweep"] >= tau - ANGLE_ROUNDING
     typed = all(name in known for name in ("x_end", "y_end", "x_center", "y_center"))
     return typed and dist(start, (known["x_end"], known["y_end"])) <= JOINED
 
