@@ -264,7 +264,10 @@ def _first_error(case: Case, marks: Marks) -> Content:
         return Content("")
     first = next((error for error in case.block.errors if error.code not in TO_TYPE), case.block.errors[0])
     role = "$c-warn" if first.code in TO_TYPE else "$c-err"
-    text = f"{marks.gouge} {sentence(first, case.unit)}"
+    said = sentence(first, case.unit)
+    if first.code == "UNREADABLE" and first.segment:
+        said = f"Segment {first.segment:g}, {said}"
+    text = f"{marks.gouge} {said}"
     # the prompt and F10 give the full sentence
     if len(text) > CHIPS_WIDTH and ". " in text[:CHIPS_WIDTH]:
         text = f"{text.partition('. ')[0]}."

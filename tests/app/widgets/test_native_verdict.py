@@ -70,7 +70,7 @@ def test_the_chips_show_an_error_after_a_clean_beginning():
     block_with_error = derive(spoiled).block(1)
     case = Case(block_with_error, look_ahead_table(block_with_error, spoiled), program.unit)
     assert title(case).endswith("segments 1-2 only")
-    assert chips(case, MARKS_OF_CHARACTERS["braille"]).plain.startswith("✖ ")
+    assert chips(case, MARKS_OF_CHARACTERS["braille"]).plain.startswith("✖ Segment 3, X END: 4.7.5 ")
     assert "none" not in chips(case, MARKS_OF_CHARACTERS["braille"]).plain
     # a segment that is only incomplete is no error
     blank = changed(block.segments[2], {"x_end": None})
