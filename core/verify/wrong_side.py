@@ -30,6 +30,9 @@ MIN_SIDE_SINE: Final = 1e-6
 TESTED_SHARES: Final = np.linspace(0.0, 1.0, 65)[1:-1, None]
 """(63, 1) shares of a part at which its side is tested where walls may contradict each other."""
 
+PARTS_AT_A_TIME: Final = 256
+"""Parts that are tested at a time, which bounds the memory in use."""
+
 MAX_HALVINGS: Final = 40
 """Bisections that locate a change of side: enough for the last digit of any part's length."""
 
@@ -218,8 +221,12 @@ def _ends_passed(pairs: Pairs, stretches: Stretches, surface: Sided) -> Floats:
 def _between_arms(pairs: Pairs, parts: Stretches, surface: Sided) -> Floats:
     """Return where these parts change sides without meeting a wall: halfway between two arms of an open contour, from
     the part's side of one arm to the cutter's side of the other."""
-    if not len(parts):
-        return np.zeros(0)
+    batches = [parts.part(first, first + PARTS_AT_A_TIME) for first in range(0, len(parts), PARTS_AT_A_TIME)]
+    return np.concatenate((np.zeros(0), *(_changes_of_side(pairs, batch, surface) for batch in batches)))
+
+
+def _changes_of_side(pairs: Pairs, parts: Stretches, surface: Sided) -> Floats:
+    """Return where the side changes between two neighbors of `TESTED_SHARES`, to the last digit."""
     s = parts.first + TESTED_SHARES * (parts.last - parts.first)
     wrong = _wrong(pairs, s.ravel(), surface).reshape(s.shape)
     changed = wrong[1:] != wrong[:-1]
