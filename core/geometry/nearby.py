@@ -30,7 +30,7 @@ BOXES_PER_RUN: Final = 8
 MAX_COARSE_RUNS: Final = 32
 """Most runs on the coarsest level, where every run of one path is compared with every run of the other."""
 
-BATCH_PAIRS: Final = 1 << 14
+BATCH_PAIRS: Final = 1 << 13
 """Pairs of runs that are opened at a time: few enough to stay in a processor's cache."""
 
 BATCH_QUERIES: Final = 1024

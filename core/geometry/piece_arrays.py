@@ -22,7 +22,7 @@ from core.tolerance import ON_PATH
 FEW_PAIRS: Final = 500
 """Up to this many pairs are calculated at once: that costs less than separating lines from arcs."""
 
-BLOCK_PAIRS: Final = 4_000
+BLOCK_PAIRS: Final = 2_000
 """Pairs calculated at a time."""
 
 

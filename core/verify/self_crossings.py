@@ -17,6 +17,9 @@ from core.tolerance import JOINED
 HALF_TURN_GAP: Final = 1e-6
 """Radians: an angle this little short of half a turn counts as half a turn."""
 
+PAIRS_AT_A_TIME: Final = 2_500
+"""Pairs that are examined at a time, which bounds the memory in use."""
+
 
 @dataclass(frozen=True, eq=False, slots=True)
 class SelfCrossings:
@@ -36,8 +39,15 @@ NO_CROSSINGS: Final = SelfCrossings(np.zeros((0, 2)), np.zeros(0, np.complex128)
 def self_crossings(surface: PieceArrays, *, closed: bool) -> SelfCrossings:
     """Find where pieces come within JOINED of each other; neighbors only away from their joint."""
     i, j = _candidates(surface, closed=closed)
-    if not len(i):
-        return NO_CROSSINGS
+    batches = [slice(first, first + PAIRS_AT_A_TIME) for first in range(0, len(i), PAIRS_AT_A_TIME)]
+    met = [NO_CROSSINGS, *(_meetings(surface, i[batch], j[batch], closed=closed) for batch in batches)]
+    places, points = (np.concatenate(column) for column in zip(*((m.places, m.points) for m in met), strict=True))
+    order = np.argsort(places[:, 0], kind="stable")
+    return SelfCrossings(places[order], points[order])
+
+
+def _meetings(surface: PieceArrays, i: Rows, j: Rows, *, closed: bool) -> SelfCrossings:
+    """Return where these pairs of pieces meet, unordered."""
     following = j == i + 1
     around = (i == 0) & (j == len(surface) - 1) if closed else np.zeros(len(i), np.bool_)
     piece, other = surface.take(i), surface.take(j)
@@ -49,8 +59,7 @@ def self_crossings(surface: PieceArrays, *, closed: bool) -> SelfCrossings:
     stations = surface.stations
     first = stations[i[pair]] + fractions[k, pair] * piece.length[pair]
     second = stations[j[pair]] + on_other * other.length[pair]
-    order = np.argsort(first, kind="stable")
-    return SelfCrossings(np.stack((first, second), axis=1)[order], points[k, pair][order])
+    return SelfCrossings(np.stack((first, second), axis=1), points[k, pair])
 
 
 def _candidates(surface: PieceArrays, *, closed: bool) -> tuple[Rows, Rows]:

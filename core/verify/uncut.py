@@ -24,7 +24,7 @@ MAX_POINT_LENGTH: Final = 1e-6
 ON_EDGE: Final = 1e-7
 """Millimeters: the end of a gap that is no farther from the cutter's edge counts as on it."""
 
-GAPS_AT_A_TIME: Final = 2_500
+GAPS_AT_A_TIME: Final = 1_000
 """Gaps whose ends are examined together, which bounds the memory in use."""
 
 
@@ -73,13 +73,15 @@ def uncut(
     area = np.where(gaps.area * side.sign > 0.0, np.abs(gaps.area), nan)
     at_start, at_end = stretches.first == 0.0, stretches.last == walls.stations[-1]
     area[~gaps.reached.all(axis=0)] = nan
+    wanted = thick > STOCK
+    wanted[[0, -1]] = True
     columns = (*numbers[gaps.pieces], *gaps.ends, length, thick, gaps.farthest, area)
     found = [
         Uncut(
             first, last, point_of(start), point_of(end), size, most, point_of(at), None if isnan(between) else between
         )
         for first, last, start, end, size, most, at, between in zip(
-            *(column.tolist() for column in columns), strict=True
+            *(column[wanted].tolist() for column in columns), strict=True
         )
     ]
     if closed and at_start[0] and at_end[-1] and len(found) > 1:
