@@ -165,7 +165,7 @@ TOPICS: Final[Mapping[tuple[Form, str], Topic]] = MappingProxyType(
         (Form.PARAMETERS, "path"): Topic(
             "CONTROL is what the control itself would mill. BEST reaches all the tool can reach."
         ),
-        (Form.PARAMETERS, "rapid_rate"): Topic("The times on PROGRAM and the setup sheet are based on it."),
+        (Form.PARAMETERS, "rapid_feed"): Topic("The times on PROGRAM and the setup sheet are based on it."),
         (Form.SETUP, "name"): Topic("Any words; signs a control would obey are written as others."),
         (Form.SETUP, "work_offset"): Topic("Which of the machine's zero points the part is clamped to."),
         (Form.SETUP, "safe_z"): Topic("Where the tool changes and where it ends. Clamps must stay below it."),

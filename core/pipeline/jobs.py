@@ -48,8 +48,8 @@ def job(block: DerivedBlock, program: Program) -> Job:
         work_offset=int(parameter(program, "work_offset")),
         coolant=solved.coolant,
         lookahead="" if block.side is None else tag,
-        rapid_rate=parameter(program, "rapid_rate"),
-        rapid_assumed=not isinstance(program.parameters.rapid_rate, Number),
+        rapid_rate=parameter(program, "rapid_feed"),
+        rapid_assumed=not isinstance(program.parameters.rapid_feed, Number),
         findings=block.findings,
         notes=tuple(_notes(block, program.unit)),
     )

@@ -234,7 +234,7 @@ PARAMETERS: Final = (
         "Path to post. CONTROL: as the look-ahead makes it. BEST: the true offset.",
         choices=tuple(PathChoice),
     ),
-    _feed("rapid_rate", "RAPID RATE", "Rapid rate of the machine a minute; only for the times."),
+    _feed("rapid_feed", "RAPID RATE", "Rapid rate of the machine a minute; only for the times."),
 )
 
 SETUP: Final = (
@@ -348,7 +348,7 @@ _DEFAULTS: Final[Mapping[str, tuple[float, float]]] = MappingProxyType(
         "max_offset": (0.0, 0.0),
         "retract_clearance": (0.1, 2.5),
         "peck_clearance": (0.05, 1.0),
-        "rapid_rate": (200.0, 5000.0),
+        "rapid_feed": (200.0, 5000.0),
         "work_offset": (54.0, 54.0),
         "safe_z": (1.0, 25.0),
     }

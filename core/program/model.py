@@ -189,7 +189,7 @@ class ProgramParameters:
     retract_clearance: Typed = None
     peck_clearance: Typed = None
     path: PathChoice = PathChoice.CONTROL
-    rapid_rate: Typed = None
+    rapid_feed: Typed = None
 
 
 @dataclass(frozen=True, slots=True)

@@ -9,7 +9,7 @@ from __future__ import annotations
 import re
 import tomllib
 from collections.abc import Callable, Iterator, Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import cache, partial
 from typing import Any, Final, TypeVar
 
@@ -173,7 +173,7 @@ def loads(text: str, file: str) -> Program:
     top = _Table(file, top.lines, (), top.data, top.chosen("units", tuple(Unit)))
     return Program(
         top.unit,
-        ProgramParameters(**_values(top.table("parameters"), Form.PARAMETERS)),
+        ProgramParameters(**_values(_with_rapid_feed(top.table("parameters")), Form.PARAMETERS)),
         PartSetup(**_values(top.table("setup"), Form.SETUP)),
         _tools(top),
         tuple(_block(block) for block in top.array("block")),
@@ -202,6 +202,14 @@ def _parsed(text: str, file: str) -> dict[str, Any]:
         raise StoreError(f"{file}: brackets are nested too deep for a program file.") from None
     except ValueError as error:
         raise StoreError(f"{file}, {syntax_fault(str(error), text)}") from error
+
+
+def _with_rapid_feed(table: _Table) -> _Table:
+    """Return the parameters with `rapid_feed` under its name; earlier files called it `rapid_rate`."""
+    if "rapid_rate" not in table.data or "rapid_feed" in table.data:
+        return table
+    data = {"rapid_feed" if key == "rapid_rate" else key: value for key, value in table.data.items()}
+    return replace(table, data=data)
 
 
 def _values(table: _Table, form: Form, *others: str) -> dict[str, Any]:

@@ -192,6 +192,13 @@ def test_files_changed_by_editors_or_mail_and_older_files_are_read(text: str) ->
     assert dumps(loads(text, "x")) == TEXT
 
 
+@pytest.mark.parametrize("key", ["rapid_feed", "rapid_rate"])
+def test_the_rapid_rate_is_read_under_its_key_and_its_older_one(key: str) -> None:
+    read = loads(f'format = 2\nunits = "IN"\n[parameters]\n{key} = 150.0\n', "part.toml")
+    assert read.parameters.rapid_feed == Number(150.0)
+    assert "rapid_feed = 150.0" in dumps(read)
+
+
 def test_a_segment_added_after_the_end_line_is_read():
     more = TEXT + '[[block.segment]]\nkind = "LINE"\nx_end = 4.0\n'
     assert len(loads(more, "x").blocks[0].segments) == len(PART.blocks[0].segments) + 1
