@@ -39,7 +39,8 @@ def contours_of(path: Path) -> tuple[RowRange, ...]:
 
     A closed run of pieces is a contour; the longest one is taken first.  Pieces before, between and after closed runs
     are an open contour if there are more than MAX_LEAD_MOVES of them, because nothing says that they are not surface.
-    Pieces after the longest run that repeat its beginning belong to no contour.
+    Between two closed runs, an arc out of one and an arc into the other are not counted.  Pieces after the longest run
+    that repeat its beginning belong to no contour.
     """
     whole = (0, len(path))
     if not len(path):
@@ -51,8 +52,21 @@ def contours_of(path: Path) -> tuple[RowRange, ...]:
         return (whole,)
     longest = _between_leads(path, sums, point_ids, longest)
     after = _end_of_overlap(path, longest)
-    contours = (*_within(sums, point_ids, (0, longest[0])), longest, *_within(sums, point_ids, (after, len(path))))
+    inner = _passes_between_leads(path, longest)
+    contours = (*_within(sums, point_ids, (0, longest[0])), *inner, *_within(sums, point_ids, (after, len(path))))
+    contours = tuple(rows for rows in contours if is_closed(path, rows) or not _joins_by_arcs(path, rows))
     return contours if len(contours) <= MAX_CONTOURS else (whole,)
+
+
+def _joins_by_arcs(path: Path, rows: RowRange) -> bool:
+    """True if an arc leads out of the contour before these rows, and another one into the contour after them.
+
+    Between both arcs are at most MAX_LEAD_MOVES moves.
+    """
+    first, last = rows
+    if first == 0 or last == len(path) or last - first > MAX_LEAD_MOVES + 2:
+        return False
+    return _blends(path, range(first - 1, first + 1)) and _blends(path, range(last, last - 2, -1))
 
 
 def closed_passes(path: Path, contour: RowRange) -> tuple[RowRange, ...]:
@@ -67,6 +81,13 @@ def closed_passes(path: Path, contour: RowRange) -> tuple[RowRange, ...]:
     if len(runs) < 2 or passes[-1] != last:
         return (contour,)
     return tuple(_between_leads(path, sums, point_ids, run) for run in runs)
+
+
+def _passes_between_leads(path: Path, contour: RowRange) -> tuple[RowRange, ...]:
+    """Return the passes of a contour that begins at a point to which leads return after each pass, else the contour."""
+    passes = closed_passes(path, contour)
+    ends = [contour[0], *(row for rows in passes for row in rows), contour[1]]
+    return passes if all(first < second for first, second in pairwise(ends)) else (contour,)
 
 
 def between_lead_arcs(path: Path, contour: RowRange, stretch: Stretch, *, cut_short: bool) -> RowRange:
@@ -265,17 +286,21 @@ def _between_leads(path: Path, sums: Floats, point_ids: list[int], rows: RowRang
 
     These leads are a line out and back in the middle of a wall or off a corner, or arcs of at most a quarter turn in
     line with the wall: around a square corner both arcs of a blend may begin and end at one point.  In a bore they may
-    be half a turn.
+    be half a turn.  With a further move before and behind, they are shorter than the run between them.
     """
-    begin, end = rows[0] + 1, rows[1] - 1
-    if begin >= end or point_ids[begin] != point_ids[end] or not _encloses(sums, (begin, end)):
-        return rows
-    if not path.turns[begin - 1] and not path.turns[end]:
-        return (begin, end) if _leads_off(path, begin, end) else rows
-    largest = pi if _inside_of_circle(path, (begin - 1, end), (begin, end)) else pi / 2
-    arcs = all(path.turns[row] and abs(path.sweeps[row]) <= largest + MAX_TANGENT_ANGLE for row in (begin - 1, end))
-    tangent = _blends(path, range(begin, begin - 2, -1)) and _blends(path, range(end - 1, end + 1))
-    return (begin, end) if arcs and tangent else rows
+    for count in range(1, MAX_LEAD_MOVES + 1):
+        begin, end = rows[0] + count, rows[1] - count
+        if begin >= end or point_ids[begin] != point_ids[end] or not _encloses(sums, (begin, end)):
+            continue
+        if not path.turns[begin - 1] and not path.turns[end]:
+            return (begin, end) if count == 1 and _leads_off(path, begin, end) else rows
+        largest = pi if _inside_of_circle(path, (begin - 1, end), (begin, end)) else pi / 2
+        arcs = all(path.turns[row] and abs(path.sweeps[row]) <= largest + MAX_TANGENT_ANGLE for row in (begin - 1, end))
+        tangent = _blends(path, range(begin, begin - 2, -1)) and _blends(path, range(end - 1, end + 1))
+        way_in, around, way_out = np.diff(sums[1, [rows[0], begin, end, rows[1]]]).tolist()
+        short = count == 1 or way_in + way_out < around
+        return (begin, end) if arcs and tangent and short else rows
+    return rows
 
 
 def _leads_off(path: Path, begin: int, end: int) -> bool:

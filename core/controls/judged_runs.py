@@ -23,15 +23,15 @@ from core.controls.contours_and_leads import (
 from core.controls.control_run import ControlRun, Stretch
 from core.controls.corner_loops import CornerLoop, without_corner_loops
 from core.controls.crossing_contours import ContourCut, cuts_of_other_contours
-from core.controls.moves import Moves, Plane
-from core.controls.moves_above import Divided, divided, heights_above
+from core.controls.moves import Moves, Plane, runs_of
+from core.controls.moves_above import Z_COLUMN, Divided, divided, heights_above
 from core.controls.rapids_at_depth import CutContour, UncompensatedCut, highest_cut, moves_through, rapid_walls
 from core.controls.registry import arc_tolerance
 from core.controls.repeated_passes import path_key, without_repeats
-from core.controls.roughing_passes import RoughingPass, without_roughing_passes
+from core.controls.standing_walls import ClosedPass, StandingWall, closed_passes_of, standing_walls
 from core.finding import Finding, Severity
 from core.geometry.nearby import BoxTree, near_pairs
-from core.geometry.path import EMPTY, Path, Rows, joined
+from core.geometry.path import Floats, Path, Rows, joined
 from core.progress import Progress, silent
 from core.progress import part as part_of
 from core.tolerance import ARC_RADII, GOUGE, ON_PATH, ROUNDING, SMALLEST_SHOWN_LENGTH
@@ -90,7 +90,8 @@ class Judged:
     first part.  `unseen_gouges` counts gouges too shallow for a digit of the program's unit; the verdict leaves them
     out.  `above`: moves above the contour, which are not judged.  On a run's first result, `uncompensated` has the cuts
     of moves without compensation into all contours, and `of_others` the cuts of compensated moves into contours of
-    other stretches.  `loops` go around outside corners and are not surface; later passes cut `roughing` passes away.
+    other stretches.  `loops` go around outside corners and are not surface; other passes cut away
+    the walls of `cut_away`.
     """
 
     stretch: Stretch
@@ -112,7 +113,7 @@ class Judged:
     uncompensated: tuple[UncompensatedCut, ...] = ()
     of_others: tuple[ContourCut, ...] = ()
     loops: tuple[CornerLoop, ...] = ()
-    roughing: tuple[RoughingPass, ...] = ()
+    cut_away: tuple[StandingWall, ...] = ()
 
 
 @dataclass(frozen=True, eq=False, slots=True)
@@ -206,14 +207,25 @@ def _judge_pieces(run: ControlRun, stretch: Stretch, parted: Divided) -> list[Ju
     judged = [_judge_stretch(run, piece) for piece in parted.pieces]
     surfaces = {path_key(result.surface): result.surface for results in judged for result in results}
     contours = Contours.of(list(surfaces.values()))
+    passes = [each for piece in parted.pieces for each in _closed_passes(piece)]
+    cut_away = {
+        path_key(without_repeats(wall.path)): wall
+        for wall in standing_walls(passes, stretch.side, stretch.radius)
+        if wall.cut_away_by
+    }
     unjudged: list[Judged] = []
-    for results in judged:
+    for piece, results in zip(parted.pieces, judged, strict=True):
         surface_keys, center = {path_key(result.surface) for result in results}, results[0].center
-        others = [contour for contour in contours.near(center, stretch.radius) if path_key(contour) not in surface_keys]
+        near = {path_key(contour): contour for contour in contours.near(center, stretch.radius)}
+        others = [contour for key, contour in near.items() if key not in surface_keys and key not in cut_away]
         more, unknown, slack = _cuts_of(run, stretch, center, others)
+        for key, wall in cut_away.items():
+            if key in near and key not in surface_keys and wall.stands:
+                more += _cuts_below(run, piece, wall.top, near[key], Leads.MOVES)
         results[0] = _with_gouges(results[0], more, slack, (*others, center))
         unjudged += unknown
-    results = _with_unjudged([result for results in judged for result in results], unjudged)
+    results = _with_unjudged([replace(result, cut_away=()) for results in judged for result in results], unjudged)
+    results[0] = replace(results[0], cut_away=tuple(cut_away.values()))
     passing = (*parted.links, *(lead for lead in parted.leads if _passes_over(run, stretch, lead, contours)))
     if passing:
         lines = sorted({line for moves in passing for line in moves.lines[1:].tolist()})
@@ -342,40 +354,60 @@ def _judge_part(
 ) -> list[Judged]:
     """Return the verdict on each contour of a part with one side and radius; the first one has the leads.
 
-    `contours` have all lines of an open one among closed ones.  If a contour is gouged, roughing passes are left out,
-    and of an open contour the arcs that lead in and out.
+    `contours` have all lines of an open one among closed ones.  If a contour is gouged, walls that other passes cut
+    away are left out, and of an open contour the arcs that lead in and out.
     """
     center = _center_path(run, stretch)
     accepted = _accepted_difference(run, whole, center)
     closed = frozenset(line for rows in contours if not contours[rows] for line in whole.numbers[slice(*rows)].tolist())
-    results = [_judge_contour(stretch, whole.part(*rows), center, accepted, len(contours), closed) for rows in contours]
-    kept, roughing, walls = tuple(contours), tuple[RoughingPass, ...](), dict(contours)
+
+    rows, lines = list(contours), list(contours.values())
+
+    def judged(walls: Sequence[StandingWall]) -> list[Judged]:
+        alone = len(walls) + len(cut_away) == 1
+        return [_judge_wall(run, stretch, wall, center, accepted, closed, alone=alone) for wall in walls]
+
+    cut_away, spans = tuple[StandingWall, ...](), rows
+    results = judged([StandingWall(whole.part(*span)) for span in spans])
     if any(result.verdict.gouges for result in results):
-        kept, roughing = without_roughing_passes(whole, kept, stretch.side, stretch.radius)
-        opened = {rows: contours.get(rows, frozenset()) for rows in kept}
-        cut_short = run.stops_within(stretch)
-        walls = {between_lead_arcs(whole, rows, stretch, cut_short=cut_short): lines for rows, lines in opened.items()}
-    if walls != contours:
-        count = len(walls) + len(roughing)
-        results = [_judge_contour(stretch, whole.part(*rows), center, accepted, count, closed) for rows in walls]
-    results = [replace(result, open_lines=lines) for result, lines in zip(results, walls.values(), strict=True)]
-    for each in roughing:
-        low = _below_later_pass(run, stretch, each)
-        if len(low):
-            wall, count = whole.part(*each.rows), len(walls) + len(roughing)
-            results.append(_judge_contour(stretch, wall, low, accepted, count, closed))
+        spans = [between_lead_arcs(whole, each, stretch, cut_short=run.stops_within(stretch)) for each in rows]
+        passes = closed_passes_of(whole, spans, _heights(stretch, whole))
+        standing = standing_walls(passes, stretch.side, stretch.radius)
+        cut_away = tuple(wall for wall in standing if wall.cut_away_by)
+        standing = [wall for wall in standing if wall.stands]
+        if cut_away:
+            opened = [index for index, span in enumerate(spans) if not is_closed(whole, span)]
+            lines = [*(frozenset[float]() for _ in standing), *(lines[index] for index in opened)]
+            results = judged([*standing, *(StandingWall(whole.part(*spans[index])) for index in opened)])
+        elif spans != rows:
+            results = judged([StandingWall(whole.part(*span)) for span in spans])
+    results = [replace(result, open_lines=each) for result, each in zip(results, lines, strict=True)]
     slack = max(result.verdict.radius_slack for result in results)
-    results[0] = replace(results[0], roughing=roughing, uneven=_most_uneven(slack, whole, center))
-    return _with_leads(results, whole, tuple(contours if roughing else walls), accepted, arcs=walls.keys() != set(kept))
+    results[0] = replace(results[0], cut_away=cut_away, uneven=_most_uneven(slack, whole, center))
+    return _with_leads(results, whole, tuple(spans), accepted, arcs=spans != rows)
 
 
-def _below_later_pass(run: ControlRun, stretch: Stretch, roughing: RoughingPass) -> Path:
-    """Return the center path of a roughing pass below the later pass, which leaves the wall there; empty if none is."""
-    moves = run.moves.part(stretch.first, stretch.last)
-    heights, starts = moves.points[:, 2], np.flatnonzero(np.isin(moves.lines, roughing.later_starts))
-    later = starts[np.argmin(heights[starts])] if len(starts) else 0
-    low = np.flatnonzero(heights[:later] < heights[later] - ON_PATH)
-    return moves.part(int(low[0]), int(low[-1]) + 1).path(stretch.plane) if len(low) else EMPTY
+def _closed_passes(stretch: Stretch) -> list[ClosedPass]:
+    """Return the closed passes of a stretch of one side and radius."""
+    whole, contours = split_where_it_closes(programmed_surface(stretch))
+    return closed_passes_of(whole, contours, _heights(stretch, whole))
+
+
+def _heights(stretch: Stretch, surface: Path) -> Floats:
+    """Return (n, 2) the heights of both ends of each piece of a stretch's surface; 0 in planes other than XY.
+
+    Pieces of the surface may be split, but are otherwise those programmed.
+    """
+    if stretch.plane is not Plane.XY:
+        return np.zeros((len(surface), 2))
+    programmed = stretch.programmed.part(stretch.entry, len(stretch.programmed) - stretch.exit)
+    rows = np.flatnonzero(programmed.moving_in(stretch.plane))
+    if len(rows) < len(surface):
+        whole = programmed_surface(stretch)
+        split = split_where_it_closes(replace(whole, numbers=np.arange(len(whole), dtype=np.float64))).path
+        rows = rows[split.numbers.astype(np.intp)]
+    heights = programmed.points[:, Z_COLUMN]
+    return np.column_stack((heights[rows - 1], heights[rows]))
 
 
 def _with_leads(
@@ -409,7 +441,7 @@ def _with_leads(
 
 
 def _center_path(run: ControlRun, stretch: Stretch) -> Path:
-    """Return the tool's center path without repeated passes; if the tool stands still, a line of no length.
+    """Return the tool's center path without repeated passes.
 
     Of a center path with wear it is the programmed path, as with no wear, and the move that leaves it, if one does.
     """
@@ -418,33 +450,59 @@ def _center_path(run: ControlRun, stretch: Stretch) -> Path:
         way_out = run.moves.part(stretch.last - 2, stretch.last)
         leaves = not run.stops_within(stretch) and way_out.lines[-1] != stretch.programmed.lines[-1]
         return without_repeats(joined([programmed, way_out.path(stretch.plane)]) if leaves else programmed)
-    moves = run.moves.part(stretch.first, stretch.last)
-    center = without_repeats(moves.path(stretch.plane))
-    if len(center) or not len(moves):
-        return center
+    return without_repeats(_path_of(run.moves.part(stretch.first, stretch.last), stretch))
+
+
+def _path_of(moves: Moves, stretch: Stretch) -> Path:
+    """Return the path of a tool in the plane of a stretch; if the tool stands still, a line of no length."""
+    path = moves.path(stretch.plane)
+    if len(path) or not len(moves):
+        return path
     point = moves.points[-1:, list(stretch.plane.axes[:2])]
     return Path.of(np.repeat(point, 2, axis=0), point, np.zeros(1, np.int8), np.array([float(moves.lines[-1])]))
 
 
-def _judge_contour(
-    stretch: Stretch, contour: Path, center: Path, accepted: float, contours: int, closed: frozenset[float]
+def _judge_wall(
+    run: ControlRun,
+    stretch: Stretch,
+    wall: StandingWall,
+    center: Path,
+    accepted: float,
+    closed: frozenset[float],
+    *,
+    alone: bool,
 ) -> Judged:
     """Judge one contour with the whole center path; moves along other contours are never on its wrong side.
 
-    A center path without its wear cannot gouge: there, moves between the `closed` contours may be on the wrong side.
+    Moves above the wall cannot gouge it.  A center path without its wear cannot gouge: there, moves between the
+    `closed` contours may be on the wrong side.
     """
+    contour = wall.path
     lines = frozenset(contour.numbers.tolist())
     surface, loops = without_corner_loops(without_repeats(contour), stretch.side)
-    leads = Leads.MOVES if contours == 1 else Leads.SEGMENTS
+    leads = Leads.MOVES if alone else Leads.SEGMENTS
     verdict = judge(surface, stretch.side, stretch.radius, center, accepted, leads=leads)
     wrong_side = verdict.wrong_side
     if stretch.wear and lines <= closed:
         wrong_side = tuple(row for row in wrong_side if center.numbers[row] not in closed - lines)
-    elif (stretch.radius <= GOUGE and not stretch.wear) or contours > 1:
+    elif (stretch.radius <= GOUGE and not stretch.wear) or not alone:
         # a center on the contour itself has no side, whatever its leads cross; a later offset may not be 0
         wrong_side = tuple(row for row in wrong_side if center.numbers[row] in lines)
     verdict = replace(verdict, wrong_side=wrong_side)
+    if verdict.judged and wall.top < np.inf:
+        verdict = replace(verdict, gouges=tuple(_cuts_below(run, stretch, wall.top, surface, leads)))
     return Judged(stretch, surface, center, verdict, lines, loops=loops)
+
+
+def _cuts_below(run: ControlRun, stretch: Stretch, top: float, contour: Path, leads: Leads) -> list[Gouge]:
+    """Return the cuts into a contour of a stretch's moves that begin or end below a height, the deepest first."""
+    moves = run.moves.part(stretch.first, stretch.last)
+    heights = moves.points[:, Z_COLUMN]
+    low = np.minimum(heights, np.concatenate((heights[:1], heights[:-1]))) < top - ON_PATH
+    low[:1] = False
+    parts = [moves.part(int(rows[0]) - 1, int(rows[-1]) + 1) for rows in runs_of(low)]
+    gouges = [gouge for part in parts for gouge in _cuts_of(run, stretch, _path_of(part, stretch), [contour], leads)[0]]
+    return sorted(gouges, key=lambda gouge: -gouge.depth)
 
 
 def _accepted_difference(run: ControlRun, *paths: Path) -> float:
@@ -483,7 +541,7 @@ def judged_findings(results: tuple[Judged, ...]) -> tuple[Finding, ...]:
                 *_uneven_arc(uneven.get(result)),
                 *_cuts(result),
                 *_open_contour(result, gouged),
-                *_roughing(result),
+                *_cut_away(result),
                 *_leads(result),
                 *_corner_loops(result),
                 *_contact(result),
@@ -660,15 +718,17 @@ def _open_contour(result: Judged, gouged: set[float]) -> list[Finding]:
     return [Finding("WAY", Severity.WARNING, text, line=first)]
 
 
-def _roughing(result: Judged) -> Iterator[Finding]:
-    """Warn of passes that are not judged because a later pass cuts them away."""
-    for each in result.roughing:
-        lines, later = (_lines_of(numbers) for numbers in (each.numbers, each.later_numbers))
-        text = (
-            f"The pass of {lines} is taken for roughing: that of {later} cuts its wall away. "
-            "If the wall should stay, it is gouged."
-        )
-        yield Finding("ROUGHING", Severity.WARNING, text, line=_line(each.numbers[0]))
+def _cut_away(result: Judged) -> Iterator[Finding]:
+    """Warn of walls that are not judged, or not above a height, because another pass cuts them away."""
+    for wall in result.cut_away:
+        lines, others = _lines_of(wall.numbers), _lines_of(wall.cut_away_by or wall.numbers)
+        if wall.stands:
+            text = f"The pass of {others} cuts the wall of {lines} away above Z {{0}}. "
+        else:
+            text = f"The pass of {lines} is taken for roughing: that of {others} cuts its wall away. "
+        text += "If the wall should stay, it is gouged."
+        lengths = (wall.top,) if wall.stands else ()
+        yield Finding("ROUGHING", Severity.WARNING, text, lengths=lengths, line=_line(wall.numbers[0]))
 
 
 def _lines_of(numbers: tuple[float, float]) -> str:

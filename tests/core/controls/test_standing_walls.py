@@ -1,4 +1,4 @@
-"""A closed contour that a later pass cuts away is roughing; every other one is a wall."""
+"""A closed contour that another pass cuts away is roughing or stands only below that pass; others are walls."""
 
 from __future__ import annotations
 
@@ -7,6 +7,7 @@ import pytest
 from core.controls.judged_runs import judge_run, judged_findings
 from core.finding import Finding, Severity
 from tests.core.controls.hand import ran
+from tests.core.controls.leveled_programs import CASES, TOOL, Level, program
 
 CONTROLS = ("fanuc:a", "haas:a", "linuxcnc")
 SHAPES = {
@@ -108,3 +109,52 @@ def test_a_move_of_a_micrometer_is_no_pass() -> None:
     findings = list(judged_findings(judge_run(ran(body, "fanuc:a", t1=0.5))))
     assert "GOUGE" in errors(findings)
     assert not [finding for finding in findings if finding.code == "ROUGHING"]
+
+
+def findings_of_levels(text: str, control: str) -> list[Finding]:
+    program_text = text.replace(" D1", "") if control == "linuxcnc" else text
+    run = ran(program_text, control, t1=TOOL)
+    return [*run.findings, *judged_findings(judge_run(run))]
+
+
+@pytest.mark.parametrize("index", range(len(CASES)))
+def test_passes_of_several_sizes_and_depths_are_clean(index: int) -> None:
+    shape, levels, inside, rapid = CASES[index]
+    findings = findings_of_levels(program(shape, levels, inside=inside, rapid=rapid), CONTROLS[index % 3])
+    assert not errors(findings), findings
+    assert {finding.code for finding in findings} & {"ROUGHING"}
+
+
+@pytest.mark.parametrize("index", range(0, len(CASES), 2))
+def test_a_wrong_side_or_lead_at_one_of_several_depths_is_found(index: int) -> None:
+    shape, levels, inside, rapid = CASES[index]
+    wrong_side = program(shape, levels, inside=inside, rapid=rapid, side="G42")
+    wrong_lead = program(shape, levels, inside=inside, rapid=rapid, wrong_lead=index % len(levels))
+    for text in (wrong_side, wrong_lead):
+        assert errors(findings_of_levels(text, CONTROLS[index % 3]))
+
+
+ONE_DEPTH: list[tuple[bool, list[Level]]] = [
+    (True, [(22, 10), (18, 10)]),
+    (True, [(18, 4), (22, 10), (18, 10)]),
+    (False, [(20, 10), (24, 10)]),
+]
+
+
+@pytest.mark.parametrize("rapid", [False, True])
+@pytest.mark.parametrize(("inside", "levels"), ONE_DEPTH)
+def test_a_pass_that_has_nothing_to_cut_behind_a_deeper_one_is_a_wall(
+    inside: bool, levels: list[Level], rapid: bool
+) -> None:
+    assert "GOUGE" in errors(findings_of_levels(program("circle", levels, inside=inside, rapid=rapid), "fanuc:a"))
+
+
+def test_a_plunge_beside_the_wide_pass_gouges_the_bore_below_it() -> None:
+    """Calculated by hand: the corner of the line to X24 leaves the center at X19 Y-5, 24.647 from the bore's axis."""
+    text = (
+        "G21 G17 G40 G90 F400\nT1 M6\nG0 X-16. Y0.\nG1 Z-10.\nG41 D1 X20.\nG3 I-20.\n"
+        "G1 Z-2.\nX28.\nG3 I-28.\nG1 X24.\n{}Z-10.\nG3 I-24.\nG40 G1 X0.\nM30\n"
+    )
+    findings = list(judged_findings(judge_run(ran(text.format(""), "fanuc:a", t1=10.0))))
+    (gouge,) = [finding for finding in findings if finding.severity is Severity.ERROR]
+    assert (gouge.line, round(gouge.value or 0.0, 3)) == (12, 0.647)
