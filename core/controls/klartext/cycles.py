@@ -15,6 +15,7 @@ from core.controls.klartext.path_functions import straight_element
 from core.controls.klartext.reader import Block
 from core.controls.klartext.setup_blocks import shift
 from core.controls.klartext.state import AXIS_WORDS, COMMON_WORDS, State
+from core.controls.klartext.transform import Transform
 from core.finding import Severity
 from core.units import to_mm
 
@@ -25,13 +26,16 @@ _HEIGHT_PARAMETERS: Final = frozenset(("Q200", "Q203", "Q204"))
 """Set-up clearance, surface and 2nd set-up clearance."""
 
 _ANY_NUMBER: Final = r"([-+.,\dQLR]+)"
+_MIRRORED_AXES: Final = re.compile(r"\s*([XYZ])\b", re.ASCII)
+_ROTATION: Final = re.compile(rf"\s*(I?)ROT\s*{_ANY_NUMBER}\s*", re.ASCII)
 _NEUTRAL: Final = {
-    8: (re.compile(r"\s*", re.ASCII), 0.0),
-    10: (re.compile(rf"\s*ROT\s*{_ANY_NUMBER}\s*", re.ASCII), 0.0),
     11: (re.compile(rf"\s*SCL\s*{_ANY_NUMBER}\s*", re.ASCII), 1.0),
     19: (re.compile(rf"(?:\s*A\s*{_ANY_NUMBER})?(?:\s*B\s*{_ANY_NUMBER})?(?:\s*C\s*{_ANY_NUMBER})?\s*", re.ASCII), 0.0),
 }
-"""Cycles that mirror, turn, scale or tilt: their words, and the value at which these change nothing."""
+"""Cycles that scale or tilt: their words, and the value at which these change nothing."""
+
+_OLD_CYCLES: Final = frozenset((7, 8, 10, *_NEUTRAL))
+"""Cycles whose first line, with .0 after the number, only names them."""
 
 _TRANSFORM_CYCLES: Final = frozenset((8, 10, 11, 19, 26, 27, 28, 29, 247))
 """Cycles that change where the contour lies."""
@@ -64,11 +68,10 @@ def cycle(state: State, block: Block) -> None:
         _call_block(state, block)
     elif head is None or head[1] == "CALL" or not number:
         state.stop("WORD", "CYCL needs DEF with a number, or CALL.", block)
-    elif number == 7:
-        if head[3] not in (None, "0"):
-            shift(state, rest)
-    elif number in _NEUTRAL and head[3] == "0":
+    elif number in _OLD_CYCLES and head[3] == "0":
         pass  # only the cycle's name; what it does comes in the blocks after it
+    elif number in (7, 8, 10) and (head[3] or number == 7):
+        _move_datum(state, rest, number, written=head[3] is not None)
     elif number in _NEUTRAL and _is_neutral(state, block, number, rest.body):
         text = f"Cycle {number} is skipped: these values turn, mirror and scale nothing."
         state.tell(Severity.INFO, "IGNORED", text, block)
@@ -80,6 +83,42 @@ def cycle(state: State, block: Block) -> None:
         state.stop("BEYOND", text, block)
     else:
         _define(state, block, number)
+
+
+def _move_datum(state: State, block: Block, number: int, *, written: bool) -> None:
+    """A line of cycle 7, 8 or 10; `written`: its number has the line's after a point."""
+    if number != 7:
+        _transform(state, block, number)
+    elif written:
+        shift(state, block)
+
+
+def _transform(state: State, block: Block, number: int) -> None:
+    """CYCL DEF 8.1 X Y mirrors axes, CYCL DEF 10.1 ROT or IROT turns the plane; without axes or at 0 that ends."""
+    if state.applied or state.side:
+        text = f"Cycle {number} under compensation is not supported. Cancel it in an L block with R0 before."
+        state.stop("CYCLE", text, block)
+    before, datum = state.transform, state.flat(state.shift)[0]
+    mirrored, angle = before.mirrored, before.angle
+    if number == 8:
+        names = _MIRRORED_AXES.findall(block.body)
+        axes = {"XYZ".index(name) for name in names}
+        if _MIRRORED_AXES.sub("", block.body).strip() or state.plane.axes[2] in axes:
+            state.stop("BEYOND", "cutcomp follows cycle 8 with axes of the working plane only, as in X Y.", block)
+        mirrored = state.plane.axes[0] in axes, state.plane.axes[1] in axes
+    else:
+        words = _ROTATION.fullmatch(block.body)
+        if words is None:
+            state.stop("WORD", "Cycle 10 needs ROT and an angle. Write ROT+30.", block)
+        angle = state.value(words[2], block) + (angle if words[1] else 0.0)
+    if any(mirrored) and angle:
+        text = "cutcomp does not follow a mirror image and a rotation together. Write out the moves."
+        state.stop("BEYOND", text, block)
+    transform = Transform(state.plane, datum, mirrored, angle)
+    if before.neutral and transform.neutral:
+        text = f"Cycle {number} is skipped: these values turn, mirror and scale nothing."
+        state.tell(Severity.INFO, "IGNORED", text, block)
+    state.transformed(transform)
 
 
 def _is_neutral(state: State, block: Block, number: int, body: str) -> bool:

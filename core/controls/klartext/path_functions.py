@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from math import atan2, cos, degrees, hypot, radians
+from math import atan2, degrees, hypot
 from typing import Final
 
 from core.controls.compensation import elements
@@ -13,6 +13,7 @@ from core.controls.klartext.corner_rounding import NO_LEAD, PendingCorner
 from core.controls.klartext.m_functions import functions, leaves_workpiece
 from core.controls.klartext.reader import Block
 from core.controls.klartext.state import AXIS_WORDS, COMMON_WORDS, SIDE_WORDS, State, Words
+from core.controls.klartext.transform import rotated
 from core.controls.moves import Plane, solid, without_rounding
 from core.finding import Severity
 from core.geometry.piece import Point
@@ -120,12 +121,8 @@ def pole_of(state: State, block: Block) -> Point:
 
 def polar_point(pole: Point, radius: float, angle: float) -> Point:
     """Return the point at a distance and an angle in degrees from a pole; multiples of 90 degrees are exact."""
-    quarter = angle / 90.0
-    if quarter.is_integer():
-        x, y = ((1.0, 0.0), (0.0, 1.0), (-1.0, 0.0), (0.0, -1.0))[int(quarter) % 4]
-    else:
-        x, y = cos(radians(angle)), cos(radians(angle - 90.0))
-    return pole[0] + radius * x, pole[1] + radius * y
+    x, y = rotated((radius, 0.0), angle)
+    return pole[0] + x, pole[1] + y
 
 
 def polar_target(state: State, block: Block, words: Words) -> tuple[list[float], float]:
@@ -310,6 +307,8 @@ def _arc_to(
     if plane is not state.plane and state.applied:
         text = "An arc outside the working plane is not compensated. Cancel compensation in an L block with R0 before."
         state.stop("HE2", text, block)
+    if plane is not state.plane and not state.transform.neutral:
+        state.stop("BEYOND", "cutcomp mirrors and turns only arcs in the working plane. Write out the moves.", block)
     state.moving(block, rapid=rapid, feed=feed)
     if hypot(goal[0] - start[0], goal[1] - start[1]) <= JOINED:
         goal = start

@@ -18,6 +18,7 @@ from core.controls.klartext.center_path import FeedAt, ProgrammedStep, Role
 from core.controls.klartext.corner_rounding import CornerBuffer
 from core.controls.klartext.formulas import evaluate
 from core.controls.klartext.reader import WORD, Block, joined_name
+from core.controls.klartext.transform import Transform
 from core.controls.moves import Plane
 from core.controls.program_text import quoted
 from core.finding import Severity
@@ -47,7 +48,8 @@ class State:
 
     `side` is the side of the last RL (+1), RR (-1) or R0 (0), `applied` the side in effect on the tool's path, `offset`
     the path's signed radius, and `ahead` the number of blocks that M120 looks ahead.  `last` is the contour element
-    just programmed, None if the next one cannot be tangent to it.  `waiting` takes the steps.  `share` is the fraction
+    just programmed, None if the next one cannot be tangent to it.  `transform` places what is programmed;
+    `datum_moved`: the datum was shifted while it was in force.  `waiting` takes the steps.  `share` is the fraction
     of the tool radius that the run uses.  `pole` is in coordinates of `pole_plane`, the plane of the axes in CC.
     `cycle` is the number of the cycle that a call runs; `cycle_due`: M99 calls it after the block.  `at_machine_place`
     are the axes that M91, M92 or M140 has sent where only the machine knows; `lost`: the tool axis is one of them when
@@ -72,6 +74,8 @@ class State:
     at_machine_place: set[int] = field(default_factory=set)
     lost: bool = False
     shift: list[float] = field(default_factory=lambda: [0.0, 0.0, 0.0])
+    transform: Transform = field(default_factory=Transform)
+    datum_moved: bool = False
     pole: Point | None = None
     pole_plane: Plane = Plane.XY
     cycle: int | None = None
@@ -221,11 +225,24 @@ class State:
     def push(self, step: ProgrammedStep) -> None:
         """Hand the next step on, to the center path."""
         ahead = self.ahead if step.role is Role.CONTOUR else 0
-        self.waiting.push(step._replace(ahead=ahead, lost=self.lost))
+        self.waiting.push(self.transform.placed_step(step)._replace(ahead=ahead, lost=self.lost))
+
+    def transformed(self, transform: Transform) -> None:
+        """Mirror and turn what is programmed from here on; the tool stays where it is."""
+        axes = self.plane.axes[:2]
+        if not self.known.issuperset(axes):
+            self.known.difference_update(axes)
+        self.waiting.flush()
+        place = self.transform.placed(self.flat(self.position)[0])
+        self.position[axes[0]], self.position[axes[1]] = transform.undone(place)
+        self.transform, self.datum_moved, self.last, self.pole = transform, False, None, None
 
     def moving(self, block: Block, *, rapid: bool, feed: float) -> None:
         """Note that a block moves, and warn if its feed or its start is unknown."""
         self.before = (rapid, feed)
+        if self.datum_moved or not (self.transform.neutral or self.transform.plane is self.plane):
+            text = "cutcomp follows a mirror image or rotation only about a datum set before, in one working plane."
+            self.stop("BEYOND", text, block)
         if rapid:
             return
         if not feed:
