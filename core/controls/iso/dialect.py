@@ -118,7 +118,8 @@ class Dialect:
     `homes_all`: G28 without an axis moves all axes.  `m97_calls`: M97 calls a block of the program, and the P of M98
     is only a program's number.  `program_names`: a name in angle brackets may replace O and its number.
     `without_point`: what makes X10 ten least increments.  `diameters_apart`: D has a memory of its own, in diameters.
-    `macro_codes`: the parameters that make G codes macros.  `g54_takes_p`: G54 P is G54.1 P.
+    `scales_axes`: G51 takes I, J and K.  `macro_codes`: the parameters that make G codes macros.  `g54_takes_p`: G54 P
+    is G54.1 P.
     `rounding_moves`: what rounding leaves between two equal positions is a move, as LinuxCNC's interpreter has it.
     `max_repeated_blocks`: how many blocks subprograms and loops may repeat before cutcomp gives up the run.
     """
@@ -153,6 +154,7 @@ class Dialect:
     repeat_letters: str = "L"
     fanuc_cycles: bool = False
     homes_all: bool = False
+    scales_axes: bool = False
     m97_calls: bool = False
     program_names: bool = False
     without_point: str = ""

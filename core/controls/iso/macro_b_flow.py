@@ -79,6 +79,7 @@ _WITHOUT_POINT: Final = re.compile(f"[XYZIJKRQ]{_NO_POINT}")
 _WITHOUT_POINT_NO_CENTER: Final = re.compile(f"[XYZRQ]{_NO_POINT}")
 _ARGUMENTS_WITHOUT_POINT: Final = re.compile(f"[ABCIJKQRUVWXYZ]{_NO_POINT}")
 _ARC: Final = re.compile(r"G0?[23](?![0-9])|[IJ]")
+_SCALE: Final = re.compile(r"G51(?![.0-9])")
 _MACRO_CALL: Final = re.compile(r"G6[56]")
 _NO_LENGTHS: Final = re.compile(r"G0?5(?![0-9])|M9[6789]")
 _LETTERS: Final = re.compile(r"(?<![A-Z])(?!DPRNT|BPRNT|POPEN|PCLOS|SETVN)[A-Z]{2,}(?![A-Z\[])|[A-Z][ \t]++[A-Z]{2}")
@@ -324,9 +325,10 @@ class MacroFlow(Flow):
             yield from self._run_block(self._block(row, statement), row)
 
     def _note_points(self, bare: str, row: int) -> None:
-        """Note lengths without a decimal point; without an arc, K counts the repeats of a cycle."""
+        """Note lengths without a decimal point; without an arc, K counts the repeats of a cycle or is a factor."""
         if not _NO_LENGTHS.search(bare):
-            pattern = _WITHOUT_POINT if _ARC.search(bare) else _WITHOUT_POINT_NO_CENTER
+            centered = _ARC.search(bare) and not _SCALE.search(bare)
+            pattern = _WITHOUT_POINT if centered else _WITHOUT_POINT_NO_CENTER
             pattern = _ARGUMENTS_WITHOUT_POINT if _MACRO_CALL.search(bare) else pattern
             for match in pattern.finditer(bare):
                 self.no_point.append((match[0], self.numbers[row], match.start() + self.starts[row] + 1))

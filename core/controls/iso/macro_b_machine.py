@@ -39,7 +39,10 @@ HAAS_SYSTEMS: Final = tuple(range(1100, 1300, 10))
 """G110 to G129 of a Haas, the same as its G154 P1 to P20."""
 
 LEAST_FACTOR: Final = 0.01
-"""A smaller factor of G51 is a P that was meant to have a decimal point."""
+"""A smaller factor of G51 is one that was meant to have a decimal point."""
+
+UNSCALED: Final = (1.0, 1.0, 1.0)
+"""The factors of the axes without G51."""
 
 FIRST_BUILDER_CODE: Final = 1000
 """G codes from G100 on that the control does not have may call macros."""
@@ -87,29 +90,36 @@ class Transform:
     """Converts programmed points to work coordinates: rotation, then scaling, then the mirror image.
 
     So the center of a rotation is scaled and mirrored too, and one mirrored axis reverses its direction.  `mirror` has
-    the mirror's coordinate by axis; `factor` scales about `fixed`; `angle` rotates about `center` in `plane`, radians.
+    the mirror's coordinate by axis; `factors` of one size scale about `fixed`, and mirror there if they are negative;
+    `angle` rotates about `center` in `plane`, radians.
     """
 
     mirror: Mapping[int, float] = field(default_factory=lambda: MappingProxyType({}))
-    factor: float = 1.0
+    factors: Point3 = UNSCALED
     fixed: Point3 = ORIGIN
     angle: float = 0.0
     center: tuple[float, float] = (0.0, 0.0)
     plane: Plane = Plane.XY
 
     def __bool__(self) -> bool:
-        return bool(self.mirror) or self.factor != 1.0 or self.angle != 0.0
+        return bool(self.mirror) or self.factors != UNSCALED or self.angle != 0.0
 
     def applied(self, point: Point3) -> Point3:
         """Return a programmed point in work coordinates."""
         turned = self._turned(point, self.angle)
-        scaled = [fixed + (value - fixed) * self.factor for value, fixed in zip(turned, self.fixed, strict=True)]
+        scaled = [
+            fixed + (value - fixed) * factor
+            for value, fixed, factor in zip(turned, self.fixed, self.factors, strict=True)
+        ]
         return self._mirrored(scaled)
 
     def undone(self, point: Point3) -> Point3:
         """Return the programmed point of a point in work coordinates: the inverse of `applied`."""
         mirrored = self._mirrored(point)
-        x, y, z = (fixed + (value - fixed) / self.factor for value, fixed in zip(mirrored, self.fixed, strict=True))
+        x, y, z = (
+            fixed + (value - fixed) / factor
+            for value, fixed, factor in zip(mirrored, self.fixed, self.factors, strict=True)
+        )
         return self._turned((x, y, z), -self.angle)
 
     def _mirrored(self, point: Sequence[float]) -> Point3:
@@ -131,7 +141,7 @@ class Transform:
 
     def flips(self, plane: Plane) -> bool:
         """True if clockwise becomes counterclockwise in a plane."""
-        return sum(axis in self.mirror for axis in plane.axes[:2]) == 1
+        return sum((axis in self.mirror) != (self.factors[axis] < 0.0) for axis in plane.axes[:2]) == 1
 
 
 class MacroMachine(Machine):
@@ -308,7 +318,7 @@ class MacroMachine(Machine):
                 text = "The arc with R ends where it starts: no move. A full circle needs I and J."
                 self.log.tell(Severity.WARNING, "FN-R", text, block.line, block.column("R"))
                 return
-            words["R"] *= self.transform.factor
+            words["R"] *= abs(self.transform.factors[0])
         elif self.transform:
             self._transform_center(words)
         super()._arc(replace(block, words=words), -turn if self.transform.flips(self.plane) else turn)
@@ -360,7 +370,7 @@ class MacroMachine(Machine):
             case 160:
                 self.polar = (0.0, 0.0)
             case 500:
-                self.transform = replace(state, factor=1.0)
+                self.transform = replace(state, factors=UNSCALED)
             case 690:
                 self.transform = replace(state, angle=0.0)
             case 501:
@@ -385,29 +395,55 @@ class MacroMachine(Machine):
     def _check_order(self, code: int, block: Block) -> None:
         """Stop if a transform begins out of order: mirror, scaling, rotation; warn if one ends before the rotation."""
         state, name, column = self.transform, f"G{code / 10:g}", block.column("G", code)
-        before = "G68" if state.angle else "G51" if code == 511 and state.factor != 1.0 else ""
+        before = "G68" if state.angle else "G51" if code == 511 and state.factors != UNSCALED else ""
         if before and code in (510, 511):
             text = f"cutcomp does not follow {name} while {before} is in force. Write it before {before}."
             self.log.stop("BEYOND", text, block.line, column)
-        if code in (500, 501) and state.angle and (state.mirror or state.factor != 1.0):
+        if code in (500, 501) and state.angle and (state.mirror or state.factors != UNSCALED):
             text = f"{name} stands before G69; cutcomp assumes that the rotation goes on as programmed."
             self.log.tell(Severity.WARNING, "FN-ROTATION", text, block.line, column)
 
     def _scale(self, block: Block) -> None:
+        """Run G51 P, or G51 I J K of one size, negative ones for a mirror image about the center of scaling.
+
+        Source: Fanuc 16i/18i-PB descriptions B-63682EN/01 p. 117, "Scaling of each axis (Mirror image)".
+        """
         words = block.words
-        if not {"I", "J", "K"}.isdisjoint(words) or "P" not in words:
+        letters = [letter for letter in "IJK" if letter in words]
+        if bool(letters) == ("P" in words) or (letters and not self.dialect.scales_axes):
             text = "cutcomp follows G51 with one P for all axes only. Write out the moves that it scales or mirrors."
             self.log.stop("BEYOND", text, block.line, block.column("G", 510))
-        number = words["P"]
-        whole_number = any(word.letter == "P" and "." not in word.number for word in block.written())
-        factor = number / 1000 if whole_number else number
-        if 0.0 < factor < LEAST_FACTOR:
-            text = f"P of G51 without a decimal point counts thousandths: here it is a factor of {factor:g}. "
-            self.log.stop("BEYOND", f"{text}Write P1. or P1000 for 1.", block.line, block.column("P"))
-        if factor <= 0.0:
-            self.log.stop("PS0006", "The factor P of G51 must be larger than 0.", block.line, block.column("P"))
+        if letters:
+            factors = self._axis_factors(block, letters)
+        else:
+            factor = self._factor(block, "P")
+            if factor <= 0.0:
+                self.log.stop("PS0006", "The factor P of G51 must be larger than 0.", block.line, block.column("P"))
+            factors = factor, factor, factor
         x, y, z = (self._absolute(axis, words) for axis in range(3))
-        self.transform = replace(self.transform, factor=factor, fixed=(x, y, z))
+        self.transform = replace(self.transform, factors=factors, fixed=(x, y, z))
+
+    def _factor(self, block: Block, letter: str) -> float:
+        number = block.words[letter]
+        whole_number = any(word.letter == letter and "." not in word.number for word in block.written())
+        factor = number / 1000 if whole_number else number
+        if 0.0 < abs(factor) < LEAST_FACTOR:
+            text = f"{letter} of G51 without a decimal point counts thousandths: here it is a factor of {factor:g}. "
+            self.log.stop("BEYOND", f"{text}Write {letter}1. or {letter}1000 for 1.", block.line, block.column(letter))
+        return factor
+
+    def _axis_factors(self, block: Block, letters: Sequence[str]) -> Point3:
+        x, y, z = (self._factor(block, letter) if letter in letters else 1.0 for letter in "IJK")
+        if abs(x) != abs(y) or abs(x) != abs(z) or not x:
+            text = "cutcomp follows G51 with I, J and K of one size only. Write out the moves that it scales."
+            self.log.stop("BEYOND", text, block.line, block.column(letters[0]))
+        if len(letters) < len("IJK"):
+            text = "cutcomp takes 1 for the axes without I, J or K. The control takes them from parameter 5421."
+            self.log.tell(Severity.WARNING, "FN-SCALE", text, block.line, block.column(letters[0]))
+        if self.transform.mirror and min(x, y, z) < 0.0:
+            text = "cutcomp does not follow a mirror image by G51 and one by G51.1 together. Write out the moves."
+            self.log.stop("BEYOND", text, block.line, block.column("G", 510))
+        return x, y, z
 
     def _rotate(self, block: Block) -> None:
         words, column = block.words, block.column("G", 680)
@@ -417,10 +453,13 @@ class MacroMachine(Machine):
         if "R" not in words:
             text = "G68 has no R: the control may turn by the angle of a parameter or setting. Write R."
             self.log.stop("BEYOND", text, block.line, column)
+        if min(self.transform.factors) < 0.0:
+            text = "cutcomp does not follow G68 under a mirror image by G51. Write out the moves."
+            self.log.stop("BEYOND", text, block.line, column)
         if self.incremental:
             text = "cutcomp takes R of G68 as an angle from 0. Under G91 the control may add it to the angle in force."
             self.log.tell(Severity.WARNING, "FN-ROTATION", text, block.line, column)
-        if self.transform.mirror or self.transform.factor != 1.0:
+        if self.transform.mirror or self.transform.factors != UNSCALED:
             text = "cutcomp assumes that the mirror image or scaling in force holds for the center of G68 too."
             self.log.tell(Severity.WARNING, "FN-ROTATION", text, block.line, column)
         first, second, _ = self.plane.axes

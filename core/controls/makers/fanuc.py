@@ -95,6 +95,7 @@ DIALECT: Final = Dialect(
     fanuc_cycles=True,
     program_names=True,
     g54_takes_p=True,
+    scales_axes=True,
     without_point="at 3401#0 = 0",
     macro_codes="parameters 6050 to 6059",
 )

@@ -35,6 +35,7 @@ DIALECT: Final[Dialect] = replace(
     ),
     homes_all=True,
     m97_calls=True,
+    scales_axes=False,
     program_names=False,
     g54_takes_p=False,
     without_point="with setting 162 off",

@@ -676,6 +676,50 @@ def test_a_scale_of_thousandths_that_was_meant_as_a_factor_is_refused() -> None:
         assert [code for code, _ in alarms(ran(f"{HEAD}{scale}\nX5. Y1.\nM30"))] == ["BEYOND"]
 
 
+@pytest.mark.parametrize("size", ["R10.", "I10. J0."])
+def test_a_negative_scale_is_a_mirror_image_about_its_center(size: str) -> None:
+    """In X=5, the points X0 Y0 and X10 Y10 come to X10 Y0 and X0 Y10."""
+    run = ran(f"{HEAD}G51 X5. Y0 Z0 I-1000 J1000 K1000\nG1 X0 Y0 F9\nG2 X10. Y10. {size}\nG50\nG1 X1. Y2.\nM30")
+    assert not run.findings
+    (arc,) = [move for move in run.moves if move.turn]
+    assert (*arc.point[:2], *arc.center[:2], arc.turn) == pytest.approx((0.0, 10.0, 0.0, 0.0, 1))
+    assert ends(run)[-1] == (1.0, 2.0)
+
+
+@pytest.mark.parametrize("scale", ["I-1. J1. K1.", "I-1000 J1000", "I-2. J2. K2."])
+def test_a_contour_mirrored_by_a_negative_scale_is_compensated_on_the_other_side(scale: str) -> None:
+    run = ran(f"{HEAD}G51 X0 Y0 Z0 {scale}\nX-20 Y0\nG41 D1 X0\nX50\nG40 X60\nM30")
+    size = 2 if "2" in scale else 1
+    assert ends(run)[1:3] == [(0.0, 5.0), (-50.0 * size, 5.0)]
+    assert bool(findings_of(run, "FN-SCALE")) is ("K" not in scale)
+
+
+def test_two_negative_scales_turn_the_contour_and_keep_its_side() -> None:
+    run = ran(f"{HEAD}G51 X0 Y0 Z0 I-1. J-1. K1.\nX-20 Y0\nG41 D1 X0\nX50\nG40 X60\nM30")
+    assert ends(run)[1:3] == [(0.0, -5.0), (-50.0, -5.0)]
+
+
+@pytest.mark.parametrize(
+    "blocks",
+    [
+        "G51 X0 Y0 I-1. J2. K1.",
+        "G51 X0 Y0 I0 J0 K0",
+        "G51 X0 Y0 I-1 J1 K1",
+        "G51 X0 Y0 I2. J2.",
+        "G51 X0 Y0 P2. I-1.",
+        "G51 X0 Y0 I-1. J1. K1.\nG68 X0 Y0 R30.",
+        "G51.1 Y0\nG51 X0 Y0 I-1. J1. K1.",
+    ],
+)
+def test_a_scale_by_axes_that_is_not_clear_is_not_followed(blocks: str) -> None:
+    assert [code for code, _ in alarms(ran(f"{HEAD}{blocks}\nX5. Y1.\nM30"))] == ["BEYOND"]
+
+
+def test_a_haas_scales_all_axes_by_one_factor() -> None:
+    """Haas mill operator's manual 96-8000, G51: X, Y, Z and P only."""
+    assert [code for code, _ in alarms(ran(f"{HEAD}G51 X0 Y0 I-1. J1. K1.\nX5. Y1.\nM30", "haas:a"))] == ["BEYOND"]
+
+
 def test_a_mirrored_contour_is_compensated_on_the_other_side() -> None:
     # mirrored in x = 0, G41 along +X becomes a path along -X with the tool on its right, above it
     run = ran(f"{HEAD}G51.1 X0\nX-20 Y0\nG41 D1 X0\nX50\nG40 X60\nM30")
