@@ -9,7 +9,7 @@ from __future__ import annotations
 
 import re
 from bisect import bisect_right
-from collections.abc import Callable, Iterable, Mapping, Sequence
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
 from typing import Final, NamedTuple, NoReturn
 
@@ -138,11 +138,20 @@ def _labels_of(lines: Sequence[str], words: Mapping[int, OWord]) -> dict[int, in
     return labels
 
 
+class CalledFile(NamedTuple):
+    """A file that a line of the main file calls; `before` is the number of the line before its first one."""
+
+    before: int
+    line: int
+    name: str
+    lines: int
+
+
 class Flow:
     """The lines of a program and the index `at` of the one to run next; `values` are its parameters, if it has any.
 
-    Lines of called files follow the file's own, of which there are `main_lines`; `called_from` has for each called file
-    the line that called it first, its name, and its number of lines.
+    Lines of called files follow the file's own, of which there are `main_lines`.  A file is added once for each line of
+    the main file that calls it, so that its moves and findings count for the line of their own call.
     """
 
     def __init__(
@@ -150,7 +159,7 @@ class Flow:
     ) -> None:  # fmt: skip
         self.lines = lines
         self.main_lines = len(lines)
-        self.called_from: list[tuple[int, str, int]] = []
+        self.called_from: list[CalledFile] = []
         self.library = library
         self.dialect = dialect
         self.log = log
@@ -166,18 +175,17 @@ class Flow:
 
     def add_called(self, name: str, count: int, line: int) -> int:
         """Note a file that a line calls; return the number of its first line."""
-        first = self.main_lines + sum(lines for _, _, lines in self.called_from) + 1
-        self.called_from.append((self.origin_of(line)[0], name, count))
-        return first
+        last = self.called_from[-1] if self.called_from else CalledFile(self.main_lines, 0, "", 0)
+        called = CalledFile(last.before + last.lines, self.origin_of(line)[0], name, count)
+        self.called_from.append(called)
+        return called.before + 1
 
     def origin_of(self, number: int) -> tuple[int, str]:
         """Return the main file's line that a line counts for, and its own place in a called file: `O3001.nc line 5`."""
-        left = number - self.main_lines
-        for line, name, count in self.called_from:
-            if 0 < left <= count:
-                return line, f"{name} line {left}"
-            left -= count
-        return number, ""
+        if number <= self.main_lines:
+            return number, ""
+        called = self.called_from[bisect_right(self.called_from, number - 1, key=lambda file: file.before) - 1]
+        return called.line, f"{called.name} line {number - called.before}"
 
     def blocks(self, line: int) -> Iterable[Block]:
         """Return the blocks of a line."""
@@ -289,7 +297,7 @@ class Flow:
 class OWordFlow(Flow):
     """The lines of a LinuxCNC program, whose O-words are run instead of read.
 
-    `begun` has the row of the word that began something under a label, by the subprogram that runs and that label.
+    `begun` has the place of the word that began something under a label, by the subprogram that runs and that label.
     """
 
     values: MacroParameters
@@ -300,7 +308,7 @@ class OWordFlow(Flow):
         super().__init__(lines, dialect, log, machine, library)
         self.words = dict[int, OWord]()
         self.subs = list[int]()
-        self.begun: dict[tuple[str | None, str], int] = {}
+        self.begun: dict[tuple[str | None, str], str] = {}
         self.by_label: dict[str, list[OWord]] = {}
         self.o_words_left = MAX_O_WORDS
         self._add_words(lines)
@@ -424,11 +432,12 @@ class OWordFlow(Flow):
     def _call_sub(self, word: OWord) -> int:
         label = word.label or self._evaluated_label(word)
         name = quoted(f"O{label}" if label.isdigit() else f"O<{label.lower()}>")
-        begun = self._begin_of(label)
+        begun = self._begin_of(label, word.row + 1)
         if begun is None and (file := self._load(label, word.row + 1)):
-            begun = self._begin_of(label)
+            begun = self._begin_of(label, word.row + 1)
             if begun is None:
                 self._stop(word, f"{file} is called here and has no subprogram {name}.")
+        begun = begun or next(self._begins_of(label), None)
         if begun is None:
             missing = quoted(f"{label.lower()}.ngc")
             self._stop(word, f"There is no subprogram {name} in this file, and no file {missing} in its folder.")
@@ -438,8 +447,20 @@ class OWordFlow(Flow):
         self.calls.append(Call(word.row + 1, label))
         return begun.row + 1
 
-    def _begin_of(self, label: str) -> OWord | None:
-        return next((other for other in self.by_label.get(label, ()) if other.word == "SUB"), None)
+    def _begins_of(self, label: str) -> Iterator[OWord]:
+        return (other for other in self.by_label.get(label, ()) if other.word == "SUB")
+
+    def _begin_of(self, label: str, line: int) -> OWord | None:
+        """Return where a subprogram begins in the main file, or in a file added for the line that makes this call."""
+        caller = self.origin_of(line)[0]
+        return next(
+            (
+                other
+                for other in self._begins_of(label)
+                if other.row < self.main_lines or self.origin_of(other.row + 1)[0] == caller
+            ),
+            None,
+        )
 
     def _evaluated_label(self, word: OWord) -> str:
         reader = ExpressionReader(word.line.text, self.values, word.line.text.index("O") + 1)
@@ -485,11 +506,11 @@ class OWordFlow(Flow):
 
     def _claim_label(self, word: OWord) -> None:
         """Claim a label for a word; one that began something else in its subprogram stops the run."""
-        key = (self.calls[-1].label, word.label)
-        if self.begun.setdefault(key, word.row) != word.row:
-            line, place = self.origin_of(self.begun[key] + 1)
-            text = f"This label is in use since {place or f'line {line}'}; give this {word.word.lower()} its own."
-            self._stop(word, text)
+        line, place = self.origin_of(word.row + 1)
+        here = place or f"line {line}"
+        begun = self.begun.setdefault((self.calls[-1].label, word.label), here)
+        if begun != here:
+            self._stop(word, f"This label is in use since {begun}; give this {word.word.lower()} its own.")
 
     def _while(self, word: OWord) -> int:
         opened = self._opened.get(word.label)

@@ -133,6 +133,7 @@ class MacroFlow(Flow):
         self.ends: dict[int, int] = {}
         self.numbered: dict[int, list[int]] = {}
         self.calls = [Call(0)]
+        self.starts_of_called: dict[tuple[int, int], int] = {}
         self.modal_call: ModalCall | None = None
         self.no_point: list[tuple[str, int, int]] = []
         self.rows_run_again = 0
@@ -612,10 +613,16 @@ class MacroFlow(Flow):
         macros = sum(call.macro for call in self.calls[1:])
         if arguments is not None and macros >= MAX_CALLS:
             self.log.stop("PS0077", f"Macros run more than {MAX_CALLS} deep.", block.line, block.column("G"))
-        start = self.labels.get(number)
-        if start is None:
-            start = self._from_library(number, block, row)
-        self._push(start, times, arguments)
+        self._push(self._start_of(number, block, row), times, arguments)
+
+    def _start_of(self, number: int, block: Block, row: int) -> int:
+        """Return where a program begins in the main file, or in a file added for the line that makes this call."""
+        start, caller = self.labels.get(number), self.origin_of(self.numbers[row])[0]
+        if start is not None and self.numbers[start] <= self.main_lines:
+            return start
+        if (number, caller) not in self.starts_of_called:
+            self._from_library(number, block, row, caller)
+        return self.starts_of_called[number, caller]
 
     def _push(self, start: int, times: int, arguments: Mapping[int, float] | None) -> None:
         call = Call(self.at, number=0, start=start, again=times - 1, macro=arguments is not None)
@@ -625,9 +632,12 @@ class MacroFlow(Flow):
         self.at = start
         self.program = self._range_of(start)
 
-    def _from_library(self, number: int, block: Block, row: int) -> int:
-        """Add a program that is not in the file, its lines numbered on from the file's; return its first row."""
+    def _from_library(self, number: int, block: Block, row: int, caller: int) -> None:
+        """Add a program that is not in the file, its lines numbered on from the file's."""
         program = self.library(number)
+        if program is None and number in self.labels:  # it stands in a file that another line has called
+            self.starts_of_called[number, caller] = self.labels[number]
+            return
         if program is None and number in BUILDER_PROGRAMS:
             text = f"O{number} may be a macro of the machine, such as for a probe. Add it to the file or its folder."
             self.log.stop("BEYOND", text, block.line, block.column("P"))
@@ -636,12 +646,16 @@ class MacroFlow(Flow):
             self.log.stop("PS0076", text, block.line, block.column("P"))
         name, content = program
         lines, _, _ = _between_percents(lines_of(content))
-        begin = self._first_row(self._append(lines, self.add_called(name, len(lines), self.numbers[row])))
+        first = self._append(lines, self.add_called(name, len(lines), self.numbers[row]))
+        begin = self._first_row(first)
         if begin not in self.begins:
             self.begins.append(begin)
             self.begins.sort()
-        self.labels[number] = begin
-        return begin
+        self.labels.setdefault(number, begin)
+        for start in range(first, len(self.lines)):
+            if title := _PROGRAM.match(self.lines[start]):
+                self.starts_of_called.setdefault((int(title[1]), caller), start)
+        self.starts_of_called[number, caller] = begin
 
     def _return(self, block: Block) -> bool:
         """Follow M99, with P to a block of the calling program; False if it ends the run."""
