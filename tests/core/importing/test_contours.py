@@ -21,6 +21,7 @@ from core.importing.contour import (
     started_at,
     started_at_corner,
     started_at_side,
+    traveled_like,
 )
 from core.importing.contours import frame_notes, with_joined
 from core.importing.listing import matching, rows_of
@@ -416,6 +417,62 @@ def test_the_start_can_be_moved_to_corners_sides_and_typed_places() -> None:
     assert len(typed.pieces) == 5
     assert typed.length == pytest.approx(40.0)
     assert started_at(typed, (10.0, 4.0)).start == pytest.approx((10.0, 4.0))
+
+
+SLOT = [line((0, -5), (20, -5)), arc((20, 0), 5, -90, 90), line((20, 5), (0, 5)), arc((0, 0), 5, 90, 270)]
+"""Traveled clockwise from (10, -5), the middle of the lower line."""
+
+
+@pytest.mark.parametrize(
+    ("first", "corners", "sides"),
+    [
+        # from the middle of a line, from a corner, from the middle of an arc: steps -2, -1, 1, 2
+        ((10, -9), [(20, 5), (20, -5), (0, -5), (0, 5)], [(10, 5), (25, 0), (-5, 0), (10, 5)]),
+        ((0, -9), [(20, 5), (20, -5), (0, 5), (20, 5)], [(25, 0), (10, -5), (-5, 0), (10, 5)]),
+        ((-9, 0), [(20, -5), (0, -5), (0, 5), (20, 5)], [(25, 0), (10, -5), (10, 5), (25, 0)]),
+    ],
+)
+def test_the_start_of_a_slot_moves_from_corner_to_corner_and_from_side_to_side(
+    first: tuple[float, float], corners: list[tuple[float, float]], sides: list[tuple[float, float]]
+) -> None:
+    contour = started_at(listed(dxf(*SLOT)).contours[0], first)
+    for move, starts, count in ((started_at_corner, corners, 4), (started_at_side, sides, 5)):
+        moved = [move(contour, step) for step in (-2, -1, 1, 2)]
+        assert [each.start for each in moved] == [pytest.approx(start) for start in starts]
+        assert {(len(each.pieces), round(each.length, 9), each.turn) for each in moved} == {
+            (count, round(40 + 10 * math.pi, 9), Turn.CW)
+        }
+
+
+def test_a_circle_starts_at_its_quarters_and_nearest_to_a_place() -> None:
+    contour = listed(dxf(circle((3, 4), 5))).contours[0]
+    starts = [started_at_side(contour, step).start for step in (0, 1, 2, -1)]
+    assert starts == [pytest.approx(point) for point in [(-2, 4), (3, 9), (8, 4), (3, -1)]]
+    assert started_at(contour, (3, 20)).start == pytest.approx((3, 9))
+    assert started_at_corner(contour, 1) is contour
+
+
+def test_an_open_contour_starts_at_the_nearer_of_its_ends_only() -> None:
+    contour = listed(dxf(line((0, 0), (10, 0)), line((10, 0), (10, 5)))).contours[0]
+    assert [started_at(contour, place).start for place in ((4, 0), (9, 1))] == [(0.0, 0.0), (10.0, 5.0)]
+    assert started_at_corner(contour, 1) is started_at_side(contour, 1) is contour
+    assert (contour.turn, contour.side, contour.area) == (Turn.NONE, None, 0.0)
+
+
+@pytest.mark.parametrize("place", [(10.0, -5.0), (0.0, 5.0), (20.0, 1.0)])
+@pytest.mark.parametrize("turned", [False, True])
+def test_a_contour_made_again_is_traveled_as_the_one_before_it(place: tuple[float, float], turned: bool) -> None:
+    contour = listed(dxf(*SLOT)).contours[0]
+    before = started_at(reversed_contour(contour) if turned else contour, place)
+    again = traveled_like(contour, before)
+    assert (again.turn, again.start) == (before.turn, pytest.approx(before.start))
+    assert same(again.pieces, before.pieces)
+
+
+def test_an_arc_whose_ends_are_within_the_tolerance_is_a_circle() -> None:
+    (contour,) = listed(dxf(arc((1, 2), 10, 0, 359.97))).contours
+    assert (contour.closed, contour.circle) == (True, pytest.approx(10.0))
+    assert contour.gap == pytest.approx(10.0 * math.radians(0.03), rel=1e-6)
 
 
 def test_equal_circles_fold_into_one_row() -> None:

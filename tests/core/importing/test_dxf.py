@@ -643,3 +643,12 @@ def test_a_polyline_with_a_late_layer_is_refused() -> None:
     with pytest.raises(DrawingError) as refused:
         read(of_version("AC1015", *tags))
     assert refused.value.code == "DXF_DAMAGED"
+
+
+@pytest.mark.parametrize(("width", "notes"), [(0.0, ()), (0.5, ("The width of polylines is ignored.",))])
+@pytest.mark.parametrize("end", [0, 1])
+def test_the_width_of_a_polyline_is_noted_once(width: float, notes: tuple[str, ...], end: int) -> None:
+    corners = polyline((0, 0), (10, 0), (10, 5))
+    corners.insert(corners.index((20, 5)) + 1, (40 + end, width))
+    drawing = read(dxf(corners, corners))
+    assert (drawing.notes, len(drawing.shapes)) == (notes, 6)

@@ -193,6 +193,59 @@ def test_a_center_path_needs_side_and_diameter() -> None:
     assert corners == {(10.0, -2.0), (-2.0, -2.0), (-2.0, 22.0), (22.0, -2.0), (22.0, 22.0)}
 
 
+@pytest.mark.parametrize(
+    ("text", "size", "reason"),
+    [
+        ("G18\nG1 Z1 F100\nG2 X3 Z1 I1.5 K0\n", 4.0, "Line 4: an arc outside of the XY plane cannot be imported"),
+        (
+            "G18\nG41 D1 G1 X9 Z9 F100\nX20\nG40 X30\n",
+            None,
+            "Line 4: the contour is in the ZX plane; only XY can be imported",
+        ),
+        ("G0 X5\nG1 Z-1 F100\n", 4.0, "The program has no move in the XY plane at a feed"),
+        ("G0 X2\nG2 X2 I-2 F100\n", 4.0, "Line 3: the path only turns about a point; there is no contour"),
+        ("G1 X10 F100\nX0\n", 4.0, "Line 3: two pieces of the contour do not meet; no contour has this path"),
+        # a step of half the radius to the tool's side
+        ("G1 X10 F100\nY1\nX20\n", 4.0, r"Line 3: no contour has this path; the nearest one is \d+\.\d{3} mm off"),
+    ],
+)
+def test_a_program_without_a_contour_is_refused_with_the_reason(text: str, size: float | None, reason: str) -> None:
+    program = f"G21 G90 G17 G0 X0 Y0 Z0\n{text}M30\n".encode()
+    center = None if size is None else CenterPathTool(Side.LEFT, size)
+    with pytest.raises(NcError, match=f"^{reason}"):
+        read_nc(program, "linuxcnc", TOOLS, center=center)
+
+
+def test_a_control_that_is_not_known_is_refused() -> None:
+    with pytest.raises(NcError, match=r"^No such control\. Choose one of: fanuc:a, "):
+        read_nc(b"M30\n", "there-is-none", TOOLS)
+
+
+# radius 3; the arcs of the contour have 0.5.  Their offsets meet where the surfaces do not: lines lead into the corner.
+BENDS = {
+    "line, arc": ("G1 X0 Y3", ["G1 X7.627719 Y3 F90", "G2 X10.5 Y4.5 I2.872281 J-2", "G1 X20"]),
+    "arc, line": ("G1 X-20 Y4.5", ["G1 X-10.5 F90", "G2 X-7.627719 Y3 I0 J-3.5", "G1 X0"]),
+    "arc, arc": ("G1 X-6.5 Y0", ["G2 X0 Y1.802776 I3.5 J0 F90", "G2 X6.5 Y0 I3 J-1.802776"]),
+}
+
+
+@pytest.mark.parametrize(
+    ("name", "starts"),
+    [
+        ("line, arc", [(0, 0), (9.194418, 0), (10.089674, 1.285714), (10.5, 1.5)]),
+        ("arc, line", [(-20, 1.5), (-10.5, 1.5), (-10.089674, 1.285714), (-9.194418, 0)]),
+        ("arc, arc", [(-3.5, 0), (-2.571429, 0.257540), (0, -4.021577), (2.571429, 0.257540)]),
+    ],
+)
+def test_a_corner_that_the_tool_does_not_reach_is_closed_by_tangents(
+    name: str, starts: list[tuple[float, float]]
+) -> None:
+    start, moves = BENDS[name]
+    text = "\n".join(["G21 G90 G17 G0 X-30 Y9", start.replace("G1", "G0"), "G1 Z-1 F50", *moves, "M30\n"])
+    (contour,) = read_nc(text.encode(), "linuxcnc", TOOLS, center=CenterPathTool(Side.LEFT, 6.0)).contours
+    assert [piece.start for piece in contour.pieces] == [pytest.approx(point, abs=1e-5) for point in starts]
+
+
 def test_an_arc_smaller_than_the_tool_is_refused_with_its_line() -> None:
     text = b"G21 G90 G17 G0 X0 Y0\nG1 Z-1 F100\nG1 X10 Y0\nG2 X12 Y-2 I0 J-2\nG1 X12 Y-20\nM30\n"
     with pytest.raises(NcError, match=r"Line 4: an arc of the path is smaller than the tool"):
