@@ -55,6 +55,9 @@ _ARC_CODES: Final = frozenset({20, 30})
 
 _CLOCK_VARIABLES: Final = (3001, 3002, 3011, 3012)
 _POSITION_VARIABLES: Final = frozenset((5001, 5002, 5003, 5041, 5042, 5043))
+_PROGRAM_VARIABLE: Final = 4115
+"""The number of the program: a file that is run need not have one."""
+
 _NO_EFFECT: Final = (3003, 3004, 3006, 3007)
 _GROUP_VARIABLES: Final[Mapping[int, tuple[str, int]]] = MappingProxyType(
     {
@@ -81,7 +84,7 @@ _GROUP_VARIABLES: Final[Mapping[int, tuple[str, int]]] = MappingProxyType(
 """The code group whose code in force a variable reads, and the code in force at the start."""
 
 _LAST_WORDS: Final[Mapping[int, str]] = MappingProxyType(
-    {4102: "B", 4107: "D", 4109: "F", 4111: "H", 4113: "M", 4114: "N", 4115: "O", 4119: "S", 4120: "T"}
+    {4102: "B", 4107: "D", 4109: "F", 4111: "H", 4113: "M", 4114: "N", 4119: "S", 4120: "T"}
 )
 
 
@@ -181,6 +184,8 @@ class MacroMachine(Machine):
         for letter in _LAST_WORDS.values():
             if letter in block.words:
                 self.last_words[letter] = block.words[letter]
+        if block.m:
+            self.last_words["M"] = block.m[-1] / 10
 
     def _grouped(self, block: Block) -> list[Code]:
         for number in block.g:
@@ -602,7 +607,7 @@ class MacroMachine(Machine):
             return 0.0
         if key in _POSITION_VARIABLES:
             return self._position_variable(key)
-        if 5021 <= key <= 5023 or 5061 <= key <= 5083:
+        if 5021 <= key <= 5023 or 5061 <= key <= 5083 or key == _PROGRAM_VARIABLE:
             self._tell_unknown_value(key)
             return VACANT
         return self._origin_variable(key)

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import pytest
 
-from tests.core.controls.hand import ran
+from tests.core.controls.hand import lines_and_ends, ran
 
 FANUC = {
     "#[0-5]=1.": "PS0115 2:1 The number of a variable cannot be negative.",
@@ -46,6 +46,34 @@ FANUC = {
     "G83 Z-5. R1. Q0": "PS0005 2:1 Q, the depth of a peck, must be larger than 0.",
     "G83 Z-5. R1. Q.00001": "PS0005 2:1 That is more than 10000 pecks",
     "G41 D1 G1 X9.\nX20.\nG41 X30.\nG40 X40.": "FN-G2 4:1 G41 or G42 is in force already",
+    "G81 Z-5. R1. F0": "PS0011 2:5 There is no feed",
+    "G1 G81 X1. Z-5. R1.": "GROUP 2:1 G0 to G3 next to a drilling cycle cancels the cycle.",
+    "#<a>=1.": "BEYOND 2:1 cutcomp does not follow named variables such as A.",
+    "M98 P2 L10000\nM30\nO2\nM99": "PS0007 2:8 L is a number of times from 1 to 9999.",
+    "G1 X9. ,R-1.\nY9.": "PS0051 2:1 A rounding or chamfer needs two straight moves in the plane and a size above 0.",
+    "G1 X9. Z1. ,C1.\nY9.": "PS0051 2:1 A rounding or chamfer needs two straight moves in the plane",
+    "G51 X0 Y0 P2.\nG68 X0 Y0 R30.\nG50": "FN-ROTATION 4:1 G50 stands before G69;",
+    "G51 X0 Y0 P2.\nG51.1 X0": "BEYOND 3:1 cutcomp does not follow G51.1 while G51 is in force.",
+    "G68 X0 Y0 R30.\nG51 X0 Y0 P2.": "BEYOND 3:1 cutcomp does not follow G51 while G68 is in force.",
+    "G68 X0 Y0 I1. R30.": "BEYOND 2:1 cutcomp follows G68 with an angle R only.",
+    "G91 G68 X0 Y0 R30.": "FN-ROTATION 2:5 cutcomp takes R of G68 as an angle from 0.",
+    "G51 X0 P9": "BEYOND 2:8 P of G51 without a decimal point counts thousandths: here it is a factor of 0.009.",
+    "G10 L20 X1.": "PS0031 2:1 G10 needs P",
+    "X#34": "PS0115 2:2 #34 is not a variable",
+    "X#200": "PS0115 2:2 #200 is not a variable",
+    "X#1136": "PS0115 2:2 #1136 is not a variable",
+    "X#1135": "FN-SYSTEM 2:1 The control knows #1135 only at run time",
+    "X#2000": "PS0115 2:2 #2000 is not a variable",
+    "X#2401": "BEYOND 2:1 #2401 is a D only at parameter 6004#5 = 1",
+    "X#4021": "PS0115 2:2 #4021 is not a variable",
+    "X#4115": "FN-SYSTEM 2:1 The control knows #4115 only at run time",
+    "X#5083": "FN-SYSTEM 2:1 The control knows #5083 only at run time",
+    "X#10000": "PS0115 2:2 #10000 is not a variable",
+    "X#14000": "PS0115 2:2 #14000 is not a variable",
+    "#1136=1.": "PS0116 2:1 #1136 cannot be set",
+    "#2507=1.": "PS0116 2:1 #2507 cannot be set",
+    "#7961=1.": "PS0116 2:1 #7961 cannot be set",
+    "G41 D1 G1 X9.\nX20.\nM0\nG4 P1\nG4 P1\nG4 P1\nG2 X30. I5.": "FN-N2-ARC 8:1 The arc after a square end begins",
 }
 LINUXCNC = {
     "G83 X1 Z-5 R1 Q0": "CYCLE 2:1 Q, the depth of a peck, must be larger than 0.",
@@ -65,11 +93,61 @@ LINUXCNC = {
     "G41.1": "N-DMISSING 2:1 G41.1 and G42.1 need D",
     "G17 G41.1 D1 L3": "N-ORIENTATION 2:14 L, the orientation of a lathe tool, goes with G18 only.",
     "G10 L1 P1 R.1 Q3\nG41 D1": "N-ORIENTATION 3:1 The tool is a lathe tool",
+    "G10 L1 P1 R.1 Q10": "DATA 2:15 Q, the orientation of a lathe tool, is a whole number from 0 to 9.",
+    "G10 L1 P3 R3": "TOOL 2:5 The tool table has no tool 3.",
+    "G10 P1 X1": "DATA 2:1 cutcomp sets only work offsets",
+    "G0 X0\nF0 G81 X1 Z-5 R1": "FEED 3:8 There is no feed",
+    "G82 X1 Z-1 R1": "CYCLE 2:1 P is missing: the first G82 block needs it.",
+    "G86 X1 Z-1 R1 P1": "CYCLE 2:1 G86 needs a spindle that turns; start it with M3 or M4.",
+    "M4\nG84 X1 Z-1 R1": "CYCLE 3:1 G84 needs a spindle that turns; start it with M3.",
+    "M3\nG74 X1 Z-1 R1": "CYCLE 3:1 G74 needs a spindle that turns; start it with M4.",
+    "X[[-2]**.5]": "MACRO 2:7 ** has no value for these numbers.",
+    "X[1+SIN 5]": "MACRO 2:5 A value is missing before SIN5].",
+    "X5,2": "WORD 2:3 A comma is no decimal point here.",
+    "O1 if": "OWORD 2:4 if needs a condition in square brackets.",
+    "O[1+] call": "MACRO 2:5 A value is missing before ]CALL.",
+    "O1 sub\nO2 sub\nO2 endsub\nO1 endsub": "OWORD 3:4 A subprogram begins inside a subprogram.",
+    "O1 sub\nO2 endsub\nO1 endsub\nO1 call\nO2 sub\nO2 endsub": "OWORD 3:4 This endsub does not match",
+    "M98 P5\nM2\nO5\nO6 return\nM99": "OWORD 5:4 A subprogram called by M98 ends with M99;",
+    "M61 Q-1": "N-WORDALONE 2:1 M61 needs Q",
+    "M61 Q2": "TOOL 2:5 The tool table has no tool 2.",
+    "M1 M3 M6 M7 M48": "GROUP 2:13 A block can have 4 M codes.",
+    **{
+        f"M{first} M{second}": f"GROUP 2:{len(first) + 3} M{first} and M{second} are of one group."
+        for first, second in map(
+            str.split,
+            ("0 1", "2 30", "60 99", "3 4", "5 19", "70 73", "6 61", "7 8", "8 9", "48 53", "62 68", "100 199"),
+        )
+    },
+    **{f"M{code}": f"CODE 2:1 M{code} is not an M code" for code in (10, 18, 20, 29, 31, 47, 54, 59, 69, 74, 97, 200)},
+    **{f"M{code}": f"M 2:1 What M{code} does is set up on the machine" for code in (100, 199)},
+    **{f"M{code}": f"BEYOND 2:1 cutcomp does not restore what M{code} restores." for code in (72, 73)},
+    **{f"{letter}1": f"N-WORDALONE 2:1 No code in this block uses {letter}." for letter in "LPQHE"},
+    "M98 P2 X1": "SUBPROGRAM 2:1 A call or a number of a subprogram must be alone",
+    "G28 G0 X1": "N-TWOG 2:1 Two G codes of this block use its axis words.",
+    "G92 G3 X1 Y1 R1": "N-TWOG 2:1 Two G codes of this block use its axis words.",
+    "G4 P-1": "N-WORDALONE 2:1 G4 needs P",
+    "G1 X1 I2": "N-WORDALONE 2:7 I, J, K and R go with G2 and G3 only.",
+    "F-1": "N-NEGATIVE 2:1 F cannot be negative.",
+    "G19 G41 D1": "N-XZYZ 2:5 Compensation works in the planes G17 and G18 only",
+    "G41 D1 G1 X9\nG10 L20 P1 X3": "N-OFFSETS 3:1 G10 changes the origin",
+    "G41 D1 G1 X9\nG10 L2 P0 X3": "N-OFFSETS 3:1 G10 changes the origin",
 }
 OTHERS = {
     ("rosettacnc:normal", "G41.1\nG1 X5"): "C1 2:1 G41.1 and G42.1 need D",
     ("rosettacnc:normal", "G41.1 D2\nG1 X5\nX9\nG40\nG2 X12 Y3 R3"): "C8 6:1 The first move after G40 is straight",
     ("rosettacnc:nist", "G41 D1\nG1 X9\nG20"): "C8 4:1 The unit cannot change under compensation.",
+    ("rosettacnc:easy", "G41 D1\nG2 X9 Y0 I4.5 J0"): "C8 3:1 The first move must be straight.",
+    ("rosettacnc:easy", "G41 D1\nG1 X9\nX20\nG40\nG2 X30 Y0 R5"): "C8 6:1 The first move after G40 must be straight.",
+    ("nine-series:a", "G1 G81 X1. Z-5. R1."): "GROUP 2:1 cutcomp does not know which counts",
+    ("nine-series:a", "G2 G41 D1 X30. I15. J0"): "R1 2:4 Compensation cannot be started in G2 or G3",
+    ("nine-series:a", "G41 D1\nG2 X30. I15. J0"): "R1 3:1 Compensation cannot be started in G2 or G3",
+    ("nine-series:a", "G41 D1 G1 X9.\nX20.\nG40\nG2 X30. I5. J0"): "R2 5:1 Block format error",
+    ("nine-series:a", "G10 L2 P7 X1."): "DATA 2:5 A work offset is set by G10 L2 P1 to P6",
+    ("nine-series:a", "G10 L20 P1 X1."): "DATA 2:5 cutcomp sets only work offsets",
+    ("threeblock", "T5//"): "TOOL 2:1 This tool data sets neither length nor diameter",
+    ("threeblock", "T1\nG41 G1 X9.\nG18 X20."): "B1-PLANE 4:1 Compensation works in the XY plane only",
+    ("haas:a", "M97 P8\nM30\nN7 G1 X1.\nM99"): "PS0128 2:1 There is no block N8",
     ("haas:a", "G18 G41 D1 G1 X9."): "H344 2:5 Older Haas controls compensate in G17 only",
     (
         "threeblock",
@@ -103,3 +181,106 @@ def test_lines_and_arcs_without_a_feed_are_reported(move: str, control: str, sto
     for feed in ("F9.", "G93 F9."):
         run = ran(f"G21\n{move} {feed}\nM30\n", control)
         assert (run.stopped_at, run.findings) == (None, ()), feed
+
+
+FANUC_VALUES = {
+    # at the start, but for G1
+    **{f"X#{key}": x for key, x in zip(range(4001, 4009), (1, 17, 90, 23, 94, 21, 40, 49), strict=True)},
+    **{f"X#{key}": x for key, x in zip(range(4009, 4018), (80, 98, 50, 67, 97, 54, 64, 69, 15), strict=True)},
+    "X#4022": 50.1,
+    "X#13001": 2.5,
+    # the last words
+    "B4. D3\nX[#4102+#4107]": 7.0,
+    "F33.\nX#4109": 33.0,
+    "H3\nX#4111": 3.0,
+    "M3 M8\nX#4113": 8.0,
+    "N70 T4 S200\nX[#4114+#4119+#4120]": 274.0,
+    # offsets: lengths and radii, worn and not, by G10 and by variables
+    "G10 L10 P3 R7.\nX[#11003+#2203]": 14.0,
+    "G10 L11 P3 R.25\nX[#10003+#2003]": 0.5,
+    "G10 L12 P3 R1.5\nX#13003": 1.5,
+    "G10 L13 P3 R.25\nX#12003": 0.25,
+    "#2201=1.5\nX#11001": 1.5,
+    "#2400=1.5\nX#11200": 1.5,
+    "#2001=1.5\nX#10001": 1.5,
+    "#2200=1.5\nX#10200": 1.5,
+    "#10001=1.5\nX#2001": 1.5,
+    "#13999=1.5\nX#13999": 1.5,
+    # work offsets, of the place Y0 in the axis X
+    "#5221=3.\nX#2501": 6.0,
+    "#5321=3.\nG59 X#2506": 6.0,
+    "#2500=2.\nX#5201": 4.0,
+    "G10 L2 P1 X3.\nX#5221": 6.0,
+    "G10 L2 P0 X3.\nX1.": 4.0,
+    "G10 L20 P2 X3.\nG54.1 P2 X#7021": 6.0,
+    "#7941=2.\nG54.1 P48 X1.": 3.0,
+    # where it stands
+    "X3. Y4. Z5.\nY0\nX[#5001+#5002+#5003]": 8.0,
+    "X3.\nX[#5041+#5043]": 3.0,
+    # calls
+    "G91\nM98 P2 L3\nM30\nO2\nX1.\nM99": 3.0,
+    "G91\nM98 P30002\nM30\nO2\nX1.\nM99": 3.0,
+    "G65 P2 L2 X3.\nM30\nO2\nG91 X#24\nM99": 6.0,
+    "#3=1.23456\nX[ROUND[#3]+1.]": 2.235,
+}
+"""The X at the end, in millimeters."""
+
+
+@pytest.mark.parametrize("blocks", FANUC_VALUES)
+def test_a_short_fanuc_program_ends_at(blocks: str) -> None:
+    run = ran(f"G21 F9.\nG1\n{blocks}\nM30\n", "fanuc:a", t1=5.0)
+    ends = lines_and_ends(run) or [(0.0, 0.0)]
+    assert (run.stopped_at, ends[-1]) == (None, (FANUC_VALUES[blocks], 0.0))
+
+
+def test_each_letter_of_g65_sets_its_variable() -> None:
+    letters = [
+        "A1",
+        "B2",
+        "C3",
+        "I4",
+        "J5",
+        "K6",
+        "D7",
+        "E8",
+        "F9",
+        "H11",
+        "M13",
+        "Q17",
+        "R18",
+        "S19",
+        "T20",
+        "U21",
+        "V22",
+        "W23",
+        "X24",
+        "Y25",
+        "Z26",
+    ]
+    words = " ".join(f"{each[0]}{each[1:]}." for each in letters)
+    moves = "\n".join(f"X#{each[1:]}" for each in letters)
+    run = ran(f"G21 F9.\nG65 P2 {words} I27. J28. K29.\nM30\nO2\nG1\n{moves}\nM99\n", "fanuc:a")
+    # the second I, J and K are #7 to #9
+    again = {"D7": 27.0, "E8": 28.0, "F9": 29.0}
+    wanted = [again.get(each, float(each[1:])) for each in letters]
+    assert [x for x, _ in lines_and_ends(run)] == wanted
+
+
+OTHER_ENDS = {
+    ("linuxcnc", "G0 X1\nG10 L20 P1 X3\nG1 X4"): (2.0, 0.0),
+    ("linuxcnc", "G0 X1\nG10 L20 P2 X3\nG55 G1 X4"): (2.0, 0.0),
+    ("linuxcnc", "G10 L2 P9 X1\nG59.3 G1 X1"): (2.0, 0.0),
+    ("linuxcnc", "G10 L1 P1 R3 Q9\nG41 D1 G1 X20"): (20.0, 3.0),
+    ("linuxcnc", "G41 D1 G1 X9\nG10 L20 P2 X3\nX20"): (20.0, 2.5),
+    ("linuxcnc", "G41 D1 G1 X9\nG10 L1 P1 R3\nX20"): (20.0, 2.5),
+    ("linuxcnc", "M61 Q1\nG41 G1 X9"): (9.0, 2.5),
+    ("linuxcnc", "G1 X4\nG7 X12\nG8"): (6.0, 0.0),
+    ("haas:a", "M97 P7 L2\nM30\nN7 G91 G1 X1.\nM99"): (2.0, 0.0),
+    ("haas:a", "M97 P7\nM30\nN7 G91 G1 X1.\nM99"): (1.0, 0.0),
+}
+
+
+@pytest.mark.parametrize(("control", "blocks"), OTHER_ENDS)
+def test_a_short_program_ends_at(control: str, blocks: str) -> None:
+    run = ran(f"G21 F9.\n{blocks}\nM30\n", control, t1=5.0)
+    assert (run.stopped_at, lines_and_ends(run)[-1]) == (None, OTHER_ENDS[control, blocks])

@@ -281,3 +281,11 @@ def test_an_arc_that_cannot_run_in_its_plane_is_refused(blocks: tuple[str, ...],
 def test_an_omitted_polar_word_is_that_of_the_position_relative_to_the_pole() -> None:
     assert moves_of("L X+10 Y+0", "CC X+4 Y-6", "LP PR+10")[-1] == NEAR((4 + 50**0.5, -6 + 50**0.5))
     assert moves_of("L X+10 Y+0", "CC X+4 Y-6", "LP PA+90")[-1] == NEAR((4, -6 + 72**0.5))
+
+
+@pytest.mark.parametrize(
+    ("radius_words", "end"), [("", (0, 5)), ("PR+5", (0, 5)), ("IPR+0", (0, 5)), ("IPR+0.004", (0, 5.004))]
+)
+def test_a_helix_ends_at_its_angle_and_its_radius(radius_words: str, end: tuple[float, float]) -> None:
+    moves = points(clean("L X+5 Y+0 Z+0 R0 F100", "CC X+0 Y+0", f"CP {radius_words} IPA+450 Z+5 DR+"))
+    assert moves == [NEAR((5, 0, 4)), NEAR((*end, 5))]

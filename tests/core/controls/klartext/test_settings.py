@@ -286,3 +286,17 @@ def test_a_plane_without_tilt_sets_its_axis_angles() -> None:
 
 def test_a_blank_may_separate_a_sign_from_its_number() -> None:
     assert flat(runs("L X + 3 Y- 4 FMAX"), 1) == [(3, -4)]
+
+
+@pytest.mark.parametrize(
+    ("blocks", "end"),
+    [
+        (("CYCL DEF 7.1 X+5 Y+1", "CYCL DEF 7.2 IX+1", "L X+1 Y+1 Z+0"), (7, 2, 0)),
+        (("TRANS DATUM AXIS X+5 Z+6", "L X+1 Y+1 Z+1"), (6, 1, 7)),
+        (("TRANS DATUM AXIS X+5 Y+6", "TRANS DATUM RESET", "L X+1 Y+1 Z+1"), (1, 1, 1)),
+    ],
+)
+def test_a_datum_shift_counts_from_the_unshifted_datum_or_from_the_last_shift(
+    blocks: tuple[str, ...], end: tuple[float, ...]
+) -> None:
+    assert points(runs("L X+9 Y+9 Z+9 R0 F100", *blocks))[-1] == end
