@@ -534,7 +534,7 @@ class ProofScreen(BaseScreen):
         if self.result is None:
             return
         # imported here: the first paint must not load numpy and shapely
-        from core.pipeline.nc_proof import scene_at_line
+        from core.pipeline.nc_proof import cutter_at_line, scene_at_line
         from core.pipeline.plot import SceneSubject
 
         line, dotted = self.document.row + 1, self.dotted
@@ -549,22 +549,23 @@ class ProofScreen(BaseScreen):
         drawing = self.query_one("#proof-drawing", Drawing)
         drawing.heading = f"LINE {line}"
         drawing.subject = SceneSubject(scene, self.unit, self.view_of)
+        for each in self.query(Drawing):
+            each.zoomed_about, _ = cutter_at_line(self.result.proof, line)
+
+    @on(Drawing.Viewed)
+    def _viewed(self, event: Drawing.Viewed) -> None:
+        """Show the same window in both drawings."""
+        self.view_of = event.view
+        for drawing in self.query(Drawing):
+            drawing.show_view(event.view)
 
     def action_zoom(self, steps: int) -> None:
         """Zoom in or out about the cutter."""
-        from core.pipeline.nc_proof import cutter_at_line
-
-        drawing = self.query_one("#proof-drawing", Drawing)
-        if drawing.drawn is None or self.result is None:
-            return
-        at, _ = cutter_at_line(self.result.proof, self.document.row + 1)
-        self.view_of = drawing.zoomed(steps, at)
-        self._draw()
+        self.query_one("#proof-drawing", Drawing).action_zoom(steps)
 
     def action_fit(self) -> None:
         """Show the whole program."""
-        self.view_of = None
-        self._draw()
+        self.query_one("#proof-drawing", Drawing).action_fit()
 
     def action_large(self) -> None:
         """Switch between the large drawing and the listing; a hidden listing and its findings take no keys."""

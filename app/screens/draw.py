@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import replace
-from typing import TYPE_CHECKING, ClassVar, Final
+from typing import TYPE_CHECKING, ClassVar, Final, cast
 
 from textual import on, work
 from textual.app import ComposeResult
@@ -29,7 +29,6 @@ from core.program.solve.solved import SolvedRun
 from core.units import Kind, sentence, to_mm
 
 if TYPE_CHECKING:
-    from core.draw.view import View
     from core.geometry.piece import Point
     from core.pipeline.plot import Subject
 
@@ -58,13 +57,12 @@ class FullDrawing(Drawing, can_focus=True):
         Binding("x,X", "screen.type_cross", "Type X and Y of the pick", show=False),
     ]
 
-    async def on_mouse_scroll_up(self) -> None:
-        """Zoom in."""
-        await self.run_action("screen.zoom(1)")
-
-    async def on_mouse_scroll_down(self) -> None:
-        """Zoom out."""
-        await self.run_action("screen.zoom(-1)")
+    def action_pan(self, right: int, up: int) -> None:
+        """Move the cross while picking a joint, otherwise the window."""
+        if isinstance(self.screen, DrawScreen) and self.screen.cross is not None:
+            self.screen.action_move_cross(right, up)
+        else:
+            super().action_pan(right, up)
 
 
 class DrawScreen(BaseScreen):
@@ -87,7 +85,6 @@ class DrawScreen(BaseScreen):
         super().__init__()
         self.entries: tuple[Entry, ...] = ()
         self.at: int | None = None
-        self._subject: Subject | None = None
         self.cross: Point | None = None
         """The cross that the operator moves while picking a joint, in millimeters; None at other times."""
 
@@ -108,6 +105,11 @@ class DrawScreen(BaseScreen):
         """The drawing widget."""
         return self.query_one("#full-drawing", FullDrawing)
 
+    @property
+    def subject(self) -> Subject | None:
+        """What the drawing shows."""
+        return cast("Subject | None", self.drawing.subject)
+
     def show_session(self, session: Session) -> None:
         """Show the block with the cursor as it is now; the window stays."""
         # imported here: the first paint must not load shapely and numpy
@@ -125,9 +127,9 @@ class DrawScreen(BaseScreen):
         self.query_one("#draw-chips", Label).update(
             chips(case, MARKS_OF_CHARACTERS[self.host.characters], findings_key="N")
         )
-        before = self._subject
+        before = self.subject
         near, view = (None, None) if before is None else (before.near, before.view)
-        self._draw(Subject(block, unit, segment, near=near, view=view, cross=self.cross))
+        self.drawing.subject = Subject(block, unit, segment, near=near, view=view, cross=self.cross)
         self._show_heading()
         if before is None and self.run is not None and self.run.code == "NOT_YET":
             self.action_pick()
@@ -135,9 +137,6 @@ class DrawScreen(BaseScreen):
     def show_signs(self) -> None:
         """Redraw the signs of the chips and of the heading."""
         self.show_session(self.current_session)
-
-    def _draw(self, subject: Subject) -> None:
-        self._subject = self.drawing.subject = subject
 
     def _show_heading(self) -> None:
         marks = MARKS_OF_CHARACTERS[self.host.characters]
@@ -154,8 +153,8 @@ class DrawScreen(BaseScreen):
     def _take(self, number: int) -> None:
         self.at = number
         entry = self.entries[number]
-        if self._subject is not None and entry.at is not None:
-            self._draw(replace(self._subject, near=entry.at, view=None))
+        if self.subject is not None and entry.at is not None:
+            self.drawing.subject = replace(self.subject, near=entry.at, view=None)
         self._show_heading()
         self.query_one(FindingsList).highlighted = number
         self.say(entry.text)
@@ -178,24 +177,13 @@ class DrawScreen(BaseScreen):
 
     def action_zoom(self, steps: int) -> None:
         """Zoom in or out about the cross, or about the center of the window without one."""
-        self._set_view(self.drawing.zoomed(steps, self.cross))
-
-    def action_pan(self, right: int, up: int) -> None:
-        """Move the cross while picking a joint; otherwise pan the window, but never far away from the part."""
-        if self.cross is not None:
-            self.action_move_cross(right, up)
-        else:
-            self._set_view(self.drawing.panned(right, up))
-
-    def _set_view(self, view: View | None) -> None:
-        if self._subject is not None and view is not None:
-            self._draw(replace(self._subject, view=view))
+        self.drawing.action_zoom(steps)
 
     def action_fit(self) -> None:
         """Show the whole part and select no finding."""
         self.at = None
-        if self._subject is not None:
-            self._draw(replace(self._subject, near=None, view=None))
+        if self.subject is not None:
+            self.drawing.subject = replace(self.subject, near=None, view=None)
         self._show_heading()
         self.quiet()
 
@@ -231,23 +219,22 @@ class DrawScreen(BaseScreen):
             self._show_cross(pieces[-1].point_at(0.5) if pieces else (0.0, 0.0))
 
     def _show_cross(self, at: Point | None) -> None:
-        self.cross = at
-        if self._subject is not None:
-            self._draw(replace(self._subject, cross=at))
+        self.cross = self.drawing.zoomed_about = at
+        if self.subject is not None:
+            self.drawing.subject = replace(self.subject, cross=at)
         self.quiet()
         self.refresh_frame()
 
     def action_move_cross(self, right: int, up: int) -> None:
         """Move the cross by character cells; the window follows it."""
         drawn, size = self.drawing.drawn, self.drawing.size
-        if self.cross is None or drawn is None or self._subject is None:
+        if self.cross is None or drawn is None:
             return
         view = drawn.view
         column, row = view.cell(self.cross, size.width, size.height)
         column, row = column + right, row - up
         if not (0 <= column < size.width and 0 <= row < size.height):
-            moved = view.pan(right / size.width, up / size.height, size.width, size.height)
-            self._subject = replace(self._subject, view=moved)
+            self.drawing.show_view(view.pan(right / size.width, up / size.height, size.width, size.height))
         self._show_cross(view.at(column, row, size.width, size.height))
 
     @work(exclusive=True, group="question")

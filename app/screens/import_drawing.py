@@ -123,7 +123,7 @@ class ContoursDrawing(Drawing, can_focus=True):
 
     BINDINGS: ClassVar[list[BindingType]] = [
         *LOOK_KEYS,
-        Binding("0,home", "screen.zoom(0)", "Whole drawing", show=False),
+        Binding("0,home", "fit", "Whole drawing", show=False),
         Binding("n,N,pagedown", "screen.next_row(1)", "Next chain", show=False),
         Binding("p,P,pageup", "screen.next_row(-1)", "Chain before", show=False),
         Binding("space", "screen.mark", "Mark", show=False),
@@ -601,19 +601,6 @@ class ImportScreen(BaseScreen):
         self.toggle_class("-large")
         (self.picture if self.has_class("-large") else self.table).focus()
         self.refresh_frame()
-
-    def action_zoom(self, steps: int) -> None:
-        """Zoom in or out about the center of the window; 0 shows the whole drawing."""
-        drawing, subject = self.picture, self.picture.subject
-        if isinstance(subject, Picked) and drawing.drawn is not None:
-            drawing.subject = replace(subject, view=drawing.zoomed(steps) if steps else None)
-
-    def action_pan(self, right: int, up: int) -> None:
-        """Pan the window, but never far away from the drawing."""
-        drawing, subject = self.picture, self.picture.subject
-        view = drawing.panned(right, up)
-        if isinstance(subject, Picked) and view is not None:
-            drawing.subject = replace(subject, view=view)
 
     def action_leave(self) -> None:
         """Go one step back: stop the work, else leave the large drawing, the filter, or the screen."""

@@ -6,9 +6,9 @@ waits for it.
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from itertools import groupby
-from typing import TYPE_CHECKING, Final, Protocol
+from typing import TYPE_CHECKING, Any, ClassVar, Final, Protocol
 
 from rich.segment import Segment
 from textual import events, on, work
@@ -33,19 +33,25 @@ PAN_SHARE: Final = 0.125
 MAX_PAN_FACTOR: Final = 2.0
 """How far the window may move from the drawing, as a multiple of the drawing's larger side."""
 LOOK_KEYS: Final[tuple[BindingType, ...]] = (
-    Binding("plus,equals_sign", "screen.zoom(1)", "Zoom in", show=False),
-    Binding("minus", "screen.zoom(-1)", "Zoom out", show=False),
-    Binding("left", "screen.pan(-1, 0)", "Move left", show=False),
-    Binding("right", "screen.pan(1, 0)", "Move right", show=False),
-    Binding("up", "screen.pan(0, 1)", "Move up", show=False),
-    Binding("down", "screen.pan(0, -1)", "Move down", show=False),
+    Binding("plus,equals_sign", "zoom(1)", "Zoom in", show=False),
+    Binding("minus", "zoom(-1)", "Zoom out", show=False),
+    Binding("left", "pan(-1, 0)", "Move left", show=False),
+    Binding("right", "pan(1, 0)", "Move right", show=False),
+    Binding("up", "pan(0, 1)", "Move up", show=False),
+    Binding("down", "pan(0, -1)", "Move down", show=False),
     Binding("m,M", "app.next_characters", "Characters", show=False),
 )
-"""The keys on a screen whose main part is the drawing; the screen has the actions."""
+"""The keys of a drawing that takes the cursor."""
 
 
 class Drawable(Protocol):
-    """Anything that can be drawn: a block of a program, or the scene of an NC program."""
+    """Anything that can be drawn, a dataclass: a block of a program, or the scene of an NC program."""
+
+    __dataclass_fields__: ClassVar[dict[str, Any]]
+
+    @property
+    def view(self) -> View | None:
+        """The window that the operator zoomed to; None shows all."""
 
     def drawn(self, columns: int, rows: int, mode: Mode) -> Drawn | None:
         """Return the picture in columns x rows cells; None if there is nothing to see."""
@@ -85,6 +91,12 @@ class Drawing(Widget):
     heading: reactive[str] = reactive("", repaint=False)
 
     @dataclass
+    class Viewed(Message):
+        """The window was zoomed or moved; None shows all."""
+
+        view: View | None
+
+    @dataclass
     class Picked(Message):
         """The drawing was clicked at a point, given in millimeters."""
 
@@ -94,19 +106,43 @@ class Drawing(Widget):
     def __init__(self, *, id: str | None = None, classes: str | None = None) -> None:
         super().__init__(id=id, classes=classes)
         self.drawn: Drawn | None = None
+        self.zoomed_about: Point | None = None
+        """The point (mm) that stays in its place when zooming; None for the center of the window."""
         self._strips: list[Strip] = []
         self._made: tuple[object, ...] = ()
 
-    def zoomed(self, steps: int, about: Point | None = None) -> View | None:
-        """Return the view zoomed about a point (mm), by default its center; None if nothing is drawn."""
-        return None if self.drawn is None else self.drawn.view.zoom(ZOOM_FACTOR**steps, about)
+    def action_zoom(self, steps: int) -> None:
+        """Zoom in by steps, or out if they are negative."""
+        if self.drawn is not None and self.subject is not None:
+            view = self.subject.view or self.drawn.view
+            self.show_view(view.zoom(ZOOM_FACTOR**steps, self.zoomed_about))
 
-    def panned(self, right: int, up: int) -> View | None:
-        """Return the view moved by steps; None if nothing is drawn, or if it would be too far from the drawing."""
-        if self.drawn is None:
-            return None
-        view = self.drawn.view.pan(PAN_SHARE * right, PAN_SHARE * up, *self.size)
-        return view if view.touches(self.drawn.bounds, MAX_PAN_FACTOR) else None
+    def action_pan(self, right: int, up: int) -> None:
+        """Move the window by steps, but never far away from the drawing."""
+        if self.drawn is not None and self.subject is not None:
+            view = (self.subject.view or self.drawn.view).pan(PAN_SHARE * right, PAN_SHARE * up, *self.size)
+            if view.touches(self.drawn.bounds, MAX_PAN_FACTOR):
+                self.show_view(view)
+
+    def action_fit(self) -> None:
+        """Show all of the subject."""
+        self.show_view(None)
+
+    def show_view(self, view: View | None) -> None:
+        """Show another window of the subject; None shows all."""
+        if self.subject is not None and view != self.subject.view:
+            self.subject = replace(self.subject, view=view)
+            self.post_message(self.Viewed(view))
+
+    def on_mouse_scroll_up(self, event: events.MouseScrollUp) -> None:
+        """Zoom in."""
+        event.stop()
+        self.action_zoom(1)
+
+    def on_mouse_scroll_down(self, event: events.MouseScrollDown) -> None:
+        """Zoom out."""
+        event.stop()
+        self.action_zoom(-1)
 
     def watch_subject(self) -> None:
         """Redraw for another block, segment or view."""

@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from typing import TYPE_CHECKING, Final
+from dataclasses import replace
+from typing import TYPE_CHECKING, Final, cast
 
 from textual.app import ComposeResult
 from textual.containers import Horizontal
@@ -19,6 +20,7 @@ from core.program.solve.solution import solution_at
 if TYPE_CHECKING:
     from core.draw.scene import Mark
     from core.geometry.piece import Point
+    from core.pipeline.plot import Subject
 
 MAX_NUMBERED: Final = 9
 """The most findings with a number in PART: a number is one character."""
@@ -54,11 +56,19 @@ class Picture(Horizontal):
         }
         for name, subject in subjects.items():
             drawing = self.query_one(f"#{name}", Drawing)
-            drawing.subject = subject
+            before = cast("Subject | None", drawing.subject)
+            drawing.subject = (
+                subject if before is None or _moved(before, subject) else replace(subject, view=before.view)
+            )
         loupe = self.query_one("#loupe", Drawing)
         loupe.heading = title
         loupe.set_class(kind is Kind.GOUGE, "-gouge")
         loupe.set_class(kind is Kind.UNCUT, "-uncut")
+
+
+def _moved(before: Subject, after: Subject) -> bool:
+    """Return whether the cursor or the loupe has moved; until then the window that the operator zoomed to stays."""
+    return (before.block.number, before.segment, before.near) != (after.block.number, after.segment, after.near)
 
 
 def _numbers(entries: Sequence[Entry]) -> tuple[Mark, ...]:

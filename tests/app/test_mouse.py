@@ -2,6 +2,9 @@
 
 from __future__ import annotations
 
+import pytest
+from textual.events import MouseEvent, MouseScrollDown, MouseScrollUp
+
 from app import theme
 from app.screens.contour import ContourScreen
 from app.widgets.drawing import Drawing
@@ -49,6 +52,29 @@ async def test_a_click_on_the_number_of_a_finding_selects_it():
         await click_at(user, user.screen.query_one("#outline", Drawing), place)
         assert user.screen.in_hand == 2
         assert user.session.place.segment == 0
+
+
+async def roll(user: Operator, drawing: Drawing, event: type[MouseEvent]) -> None:
+    """Turn the wheel over a drawing that is drawn."""
+    while drawing.drawn is None:
+        await user.pilot.pause(0.01)
+    x, y, *_ = drawing.content_region
+    user.app.post_message(event(None, x, y, 0, 0, 0, False, False, False))
+    await user.settle()
+
+
+@pytest.mark.parametrize("name", ["outline", "loupe", "full-drawing"])
+async def test_the_wheel_zooms_in_every_drawing(name):
+    async with operator() as user:
+        if name == "full-drawing":
+            await user.press("f7")
+        drawing = user.screen.query_one(f"#{name}", Drawing)
+        await roll(user, drawing, MouseScrollUp)
+        near = drawing.subject.view.scale
+        await roll(user, drawing, MouseScrollDown)
+        await roll(user, drawing, MouseScrollDown)
+        assert drawing.subject.view.scale == pytest.approx(near * 1.25**2)
+        assert drawing.subject.view.center == drawing.drawn.view.center
 
 
 async def test_theme_and_characters_are_kept_in_the_settings():

@@ -9,6 +9,7 @@ from time import sleep
 from typing import Any
 
 import pytest
+from textual.events import MouseScrollUp
 from textual.widgets import Input, Label, OptionList, Static
 
 from app.app import CutcompApp
@@ -160,6 +161,22 @@ async def test_next_finding_brings_its_place_into_an_enlarged_drawing(tmp_path):
             assert user.line != before
             assert user.proof.view_of is not None
             assert user.proof.view_of.center == cutter_at_line(user.proof.result.proof, user.line)[0]
+
+
+async def test_the_wheel_zooms_about_the_cutter(tmp_path):
+    async with at_proof(tmp_path) as user:
+        await with_tool(user)
+        await user.press("down", "down")
+        drawing = user.proof.query_one("#proof-drawing", Drawing)
+        cutter = cutter_at_line(user.proof.result.proof, user.line)[0]
+        before = drawing.drawn.view.cell(cutter, *drawing.size)
+        x, y, *_ = drawing.content_region
+        user.app.post_message(MouseScrollUp(None, x, y, 0, 0, 0, False, False, False))
+        await user.settle()
+        assert user.proof.view_of == drawing.subject.view
+        assert user.proof.view_of.cell(cutter, *drawing.size) == pytest.approx(before)
+        await user.press("0")
+        assert user.proof.view_of is drawing.subject.view is None
 
 
 async def test_the_new_program_beside_an_nc_text_can_be_saved(tmp_path, monkeypatch):

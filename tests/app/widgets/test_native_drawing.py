@@ -1,6 +1,6 @@
 from __future__ import annotations
 
-from dataclasses import replace
+from dataclasses import dataclass, field, replace
 from threading import Event
 
 import pytest
@@ -12,6 +12,7 @@ from app.theme import DARK_THEME, themes
 from app.widgets.drawing import LOOK_OF_STYLE, Drawing
 from core.draw.characters import Mode
 from core.draw.scene import Style
+from core.draw.view import View
 from core.pipeline.derive import derive
 from core.pipeline.plot import Drawn, Subject
 
@@ -87,11 +88,15 @@ async def test_a_hidden_drawing_is_drawn_only_once_shown(pocket):
         assert "".join(await settled(app)).strip()
 
 
+@dataclass
 class SlowWhenNarrow:
     """A subject whose picture in few columns waits for `go`."""
 
-    def __init__(self, subject: Subject, columns: int) -> None:
-        self.subject, self.columns, self.go, self.over = subject, columns, Event(), Event()
+    subject: Subject
+    columns: int
+    view: View | None = None
+    go: Event = field(default_factory=Event)
+    over: Event = field(default_factory=Event)
 
     def drawn(self, columns: int, rows: int, mode: Mode) -> Drawn | None:
         if columns < self.columns:
