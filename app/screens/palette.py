@@ -5,7 +5,6 @@ from __future__ import annotations
 import re
 from collections.abc import Iterator
 from functools import partial
-from types import MappingProxyType
 from typing import Any, ClassVar, Final
 
 from textual import on
@@ -22,24 +21,24 @@ ACTIONS: Final = (
     ("OPEN A PATH", "app.open_path", "type the name of a file"),
     ("NEW INCH", "app.new('IN')", "a new program in inches"),
     ("NEW MM", "app.new('MM')", "a new program in millimeters"),
-    ("POST", "app.post", "write the NC file"),
+    ("POST", "app.post", "write the NC file: export G-code"),
     ("SETUP SHEET", "app.sheet", "the sheet that goes to the machine"),
     ("DRAW", "app.draw", "F7: the drawing, finding by finding"),
     ("LOOKAHEAD TABLE", "app.lookahead", "what every value from 1 to 20 does"),
     ("MILL CONTOUR", "app.contour", "the form of the block"),
     ("PROGRAM", "app.program", "the list of blocks"),
-    ("PROGRAM PARAMETERS", "app.parameters", "blends, allowances, clearances, units"),
+    ("PROGRAM PARAMETERS", "app.parameters", "units, blends, allowances, clearances"),
     ("PART SETUP", "app.part_setup", "part name, work offset, safe height"),
     ("TOOL SETUP", "app.tools", "the tool table"),
     ("IMPORT TOOL TABLE", "app.import_tools", "tools from a LinuxCNC tool table"),
     ("IMPORT DRAWING", "app.open_path", "contours of a DXF file"),
     ("NC PROOF", "app.open_path", "what a control does with an NC program"),
     ("GUIDED FIRST PART", "app.guide", "a first part, step by step"),
-    ("SHIFT BLOCK", "app.shift_block", "move the whole block in X and Y"),
-    ("ROTATE BLOCK", "app.rotate_block", "turn the whole block about a point"),
-    ("MIRROR BLOCK", "app.mirror_block", "in a line; DIRECTION and CUTTER COMP. turn round"),
-    ("REPEAT SEGMENTS, SHIFTED", "app.repeat_shifted", "copies of segments, each moved on"),
-    ("REPEAT SEGMENTS, ROTATED", "app.repeat_rotated", "copies of segments, each turned on"),
+    ("SHIFT BLOCK", "app.shift_block", "transform: move the whole block in X and Y"),
+    ("ROTATE BLOCK", "app.rotate_block", "transform: turn the whole block about a point"),
+    ("MIRROR BLOCK", "app.mirror_block", "transform: flip in a line; DIRECTION and CUTTER COMP. turn round"),
+    ("REPEAT SEGMENTS, SHIFTED", "app.repeat_shifted", "copy segments, each copy moved on"),
+    ("REPEAT SEGMENTS, ROTATED", "app.repeat_rotated", "copy segments, each copy turned on"),
     ("UNDO", "app.undo", "Ctrl+Z"),
     ("REDO", "app.redo", "Ctrl+Y"),
     ("CALCULATE", "app.calculate", "again, after Esc has stopped it"),
@@ -47,42 +46,14 @@ ACTIONS: Final = (
     ("LIGHT / DARK", "app.light_or_dark", "the other colors"),
     ("MOUSE", "app.mouse", "clicks act here, or the terminal marks text with it"),
     ("KEYS, HELP", "app.help", "? or Ctrl+G"),
-    ("QUIT", "app.quit", "Ctrl+Q"),
+    ("QUIT", "app.quit", "Ctrl+Q: exit"),
 )
 """Name, action and hint of each action that works on every screen."""
-OTHER_WORDS: Final = MappingProxyType(
-    {
-        "SAVE": "write store keep",
-        "OPEN": "load files home folder",
-        "NEW INCH": "create part program imperial",
-        "NEW MM": "create part program metric millimeter",
-        "POST": "gcode g-code export output nc",
-        "SETUP SHEET": "print",
-        "DRAW": "graphics view plot picture",
-        "PROGRAM PARAMETERS": "units inch mm metric blend finish clearance",
-        "PART SETUP": "origin zero offset g54",
-        "TOOL SETUP": "tools cutters diameter",
-        "IMPORT DRAWING": "dxf cad",
-        "NC PROOF": "simulate verify check backplot gcode g-code",
-        "SHIFT BLOCK": "transform move translate",
-        "ROTATE BLOCK": "transform turn",
-        "MIRROR BLOCK": "transform flip reflect",
-        "REPEAT SEGMENTS, SHIFTED": "transform copy pattern array",
-        "REPEAT SEGMENTS, ROTATED": "transform copy pattern array",
-        "DELETE SEGMENT": "remove erase",
-        "DELETE TOOL": "remove erase",
-        "CALCULATOR": "trig triangle bolt circle tangent",
-        "LIGHT / DARK": "colors theme",
-        "KEYS, HELP": "manual",
-        "QUIT": "exit end close leave",
-    }
-)
-"""Other words for actions, in small letters, as a shop may call them."""
 NOTHING_FOUND: Final = "No action has that name."
-OTHER_SCORE: Final = 0.01
-"""The score of an action found by another word, below any found by its name."""
-MIN_OTHER: Final = 3
-"""The fewest letters that find an action by another word."""
+NAME_BEGINS: Final = 100.0
+"""Added to the score of an action whose name begins with what is typed, above any other match."""
+WORDS_BEGIN: Final = 0.01
+"""The score of an action found by words of its name and hint, below any found by the letters of its name."""
 GO_TO_SEGMENT: Final = re.compile(r"\D*(\d{1,5})\s*")
 
 
@@ -116,9 +87,12 @@ class Actions(Provider):
         closed by then.
         """
         matcher = self.matcher(query)
-        scored = [(matcher.match(action[0]) or _other_score(query, action[0]), action) for action in self._unique()]
-        matches = [(score, action) for score, action in scored if score > 0]
-        for score, (name, action, hint) in matches:
+        scored = [
+            (_score(matcher.match(name), query, name, hint), name, action, hint)
+            for name, action, hint in self._unique()
+        ]
+        matches = [each for each in scored if each[0] > 0]
+        for score, name, action, hint in matches:
             yield Hit(score, matcher.highlight(name), partial(self.screen.run_action, action), help=hint)
         number = GO_TO_SEGMENT.fullmatch(query)
         if number is not None:
@@ -129,13 +103,13 @@ class Actions(Provider):
             yield Hit(1.0, NOTHING_FOUND, partial(app.say, NOTHING_FOUND), help="Delete letters, or go back with Esc")
 
 
-def _other_score(query: str, name: str) -> float:
-    """Return a small score if each word of the query begins a word of the name or another word for it; else 0."""
-    if len(query.strip()) < MIN_OTHER:
-        return 0.0
-    words = f"{name.lower()} {OTHER_WORDS.get(name, '')}".split()
-    parts = query.lower().split()
-    return OTHER_SCORE if all(any(word.startswith(part) for word in words) for part in parts) else 0.0
+def _score(matched: float, query: str, name: str, hint: str) -> float:
+    """Return the rank of an action whose name matches the query by `matched`; 0 if it is not found."""
+    if name.lower().startswith(query.strip().lower()):
+        return matched + NAME_BEGINS
+    words, parts = f"{name} {hint}".lower().split(), query.lower().split()
+    found = all(any(word.startswith(part) for word in words) for part in parts)
+    return matched or (WORDS_BEGIN if found else 0.0)
 
 
 class Palette(CommandPalette):

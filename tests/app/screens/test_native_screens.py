@@ -235,8 +235,13 @@ async def test_the_palette_presses_a_softkey_by_its_digit_and_finds_actions_by_n
     async with operator() as user:
         await user.press("ctrl+k", "7")
         assert isinstance(user.app.screen, DrawScreen)
-        await user.press("f8", "ctrl+k", *"lookahead", "space", *"table")
+        await user.press("f8", "ctrl+k", *"lookahead")
         await everything(user)
+        options = user.app.screen.query_one(OptionList).options
+        assert [str(option.prompt).splitlines()[0] for option in options[:2]] == [
+            "LOOKAHEAD TABLE",
+            "RECALCULATE LOOKAHEAD",
+        ]
         await user.press("enter")
         await everything(user)
         assert isinstance(user.app.screen, LookaheadScreen)
