@@ -234,29 +234,8 @@ def test_a_short_fanuc_program_ends_at(blocks: str) -> None:
 
 
 def test_each_letter_of_g65_sets_its_variable() -> None:
-    letters = [
-        "A1",
-        "B2",
-        "C3",
-        "I4",
-        "J5",
-        "K6",
-        "D7",
-        "E8",
-        "F9",
-        "H11",
-        "M13",
-        "Q17",
-        "R18",
-        "S19",
-        "T20",
-        "U21",
-        "V22",
-        "W23",
-        "X24",
-        "Y25",
-        "Z26",
-    ]
+    letters = [f"{letter}{number}" for letter, number in zip("ABCIJKDEF", range(1, 10), strict=True)]
+    letters += ["H11", "M13", *(f"{letter}{number}" for number, letter in enumerate("QRSTUVWXYZ", 17))]
     words = " ".join(f"{each[0]}{each[1:]}." for each in letters)
     moves = "\n".join(f"X#{each[1:]}" for each in letters)
     run = ran(f"G21 F9.\nG65 P2 {words} I27. J28. K29.\nM30\nO2\nG1\n{moves}\nM99\n", "fanuc:a")
