@@ -70,7 +70,8 @@ def containers(chains: Sequence[Sequence[Piece]]) -> list[list[int]]:
     polygons = [_polygon(chords_of(Path.from_pieces(chain), CHORD_ERROR)) for chain in chains]
     sizes = [abs(signed_area(chain)) for chain in chains]
     tree = shapely.STRtree(polygons)
-    points = [shapely.Point(chain[0].point_at(0.5)) for chain in chains]
+    # a point of the chain itself may lie on another one that it touches
+    points = shapely.point_on_surface(polygons)
     inside: list[list[int]] = [[] for _ in chains]
     for inner, outer in tree.query(points, predicate="within").T.tolist():
         # a chain does not lie in itself, and never in a smaller one

@@ -1,14 +1,15 @@
-"""Nesting: the boxes of several chains at once."""
+"""Nesting: the boxes of several chains at once, and which chain lies in which."""
 
 from __future__ import annotations
 
+import cmath
 import math
 from itertools import pairwise
 
 import pytest
 
 from core.geometry.piece import Arc, Line, Piece, Point, Turn
-from core.importing.nesting import boxes_of
+from core.importing.nesting import boxes_of, containers
 
 STEPS = 3600
 
@@ -36,3 +37,15 @@ def test_each_chain_has_its_own_box() -> None:
         xs, ys = zip(*(point for piece in chain for point in points_on(piece)), strict=True)
         assert box == pytest.approx((min(xs), min(ys), max(xs), max(ys)), abs=1e-5)
     assert boxes_of([]) == []
+
+
+@pytest.mark.parametrize("degrees", range(0, 360, 15))
+def test_a_contour_on_the_edge_of_a_larger_one_lies_outside_it(degrees: int) -> None:
+    """The smaller one begins with the edge at which they touch."""
+    turned = cmath.rect(1.0, math.radians(degrees))
+    corners = [[-2.5, 13.0, 13.0 + 10.0j, -2.5 + 10.0j], [0.0, 10.0, 10.0 - 5.0j, -5.0j]]
+    chains: list[list[Piece]] = []
+    for points in corners:
+        places = [(point.real, point.imag) for point in (corner * turned for corner in points)]
+        chains.append([Line(start, end) for start, end in pairwise([*places, places[0]])])
+    assert containers(chains) == [[], []]
