@@ -39,10 +39,13 @@ from core.controls.program_text import capitals, lines_of, quoted
 from core.finding import Severity
 from core.units import Unit
 
-MAX_ROWS_RUN_AGAIN: Final = 200_000
+MAX_ROWS_RUN_AGAIN: Final = 1_000_000
 MAX_ROWS_WITHOUT_MOVEMENT: Final = 100_000
 MAX_ROWS_WITHOUT_PROGRESS: Final = 20_000
-"""Rows after which a program counts as endless; a row's first run does not count."""
+"""Rows after which a program counts as endless; a row's first run does not count.
+
+The rows without progress may be more by the rows of the program, since a subprogram runs that long without any loop.
+"""
 
 BUILDER_PROGRAMS: Final = range(9000, 10_000)
 """Program numbers that usually belong to the machine builder, as for a probe or the tool changer."""
@@ -270,14 +273,14 @@ class MacroFlow(Flow):
             self.rows_run_again += 1
             self.rows_without_progress += 1
         self.ran[line - 1] = True
-        if self.rows_without_progress > MAX_ROWS_WITHOUT_PROGRESS:
+        if self.rows_without_progress > MAX_ROWS_WITHOUT_PROGRESS + len(self.lines):
             text = (
-                "The program does not come to an end: a loop or a jump runs for ever. Through its last "
-                f"{MAX_ROWS_WITHOUT_PROGRESS} blocks no condition came nearer to its turn. cutcomp stops here."
+                f"The program does not end: in the last {self.rows_without_progress} blocks no condition of a loop or "
+                "a jump came closer to its end. cutcomp stops here."
             )
             self.log.stop("LIMIT", text, self.numbers[line - 1], 1)
         if self.rows_run_again > MAX_ROWS_RUN_AGAIN or self.rows_without_movement > MAX_ROWS_WITHOUT_MOVEMENT:
-            text = "The program does not come to an end: a loop or a jump runs for ever. cutcomp stops here."
+            text = "The program does not end: a loop or a jump runs for ever. cutcomp stops here."
             self.log.stop("LIMIT", text, self.numbers[line - 1], 1)
 
     def _note_progress(self, row: int, differences: list[float]) -> None:
@@ -660,8 +663,12 @@ class MacroFlow(Flow):
     def _return(self, block: Block) -> bool:
         """Follow M99, with P to a block of the calling program; False if it ends the run."""
         call, target = self.calls[-1], block.words.get("P")
+        if len(self.calls) > 1:
+            # the conditions of the next call begin at their first values again
+            self.rows_without_progress = 0
+            self.least_differences.clear()
         if target is None and (call.again or len(self.calls) == 1):
-            self.rows_without_progress, call.loops = 0, {}
+            call.loops = {}
             return super()._return(block)
         if len(self.calls) > 1:
             if call.macro:

@@ -566,7 +566,7 @@ def test_an_endless_loop_without_movement_is_stopped(loop: str) -> None:
 def test_an_endless_loop_with_movement_is_stopped_when_no_condition_gets_closer_to_its_end(loop: str) -> None:
     run = ran(loop)
     endless = next(finding for finding in run.findings if finding.code == "FN-ENDLESS")
-    assert "no condition came nearer" in endless.text
+    assert "no condition of a loop or a jump came closer" in endless.text
     assert endless.column == 1
     assert len(run.moves) < 2_000
 
@@ -578,10 +578,29 @@ def test_an_endless_loop_with_movement_is_stopped_when_no_condition_gets_closer_
         ("WHILE[#100LT1500]DO1\n#100=#100+1\nEND1\nM30", 1_500),
         ("WHILE[#101LT3]DO1\n#101=#101+1\n#1=800\nWHILE[#1GT0]DO2\n#1=#1-1\n#100=#100+1\nEND2\nEND1\nM30", 2_400),
         ("M98 P2 L900\nM30\nO2\n#100=#100+1\nG4 P1\nM99", 900),
+        ("WHILE[#100LT8000]DO1\n#100=#100+1\nG1 X#100 F10.\nEND1\nM30", 8_000),
     ],
 )
 def test_a_long_loop_that_gets_closer_to_its_end_runs(loop: str, rounds: int) -> None:
     assert values(f"#100=0\n#101=0\n{loop}")[100] == rounds
+
+
+LONG_SUBPROGRAMS: Final = {
+    "many rows": ("M98 P2\nM98 P2\nM30\nO2\n" + "#100=#100+1\n" * 2_500 + "M99", 5_000),
+    "a loop": ("M98 P2\nM98 P2\nM30\nO2\n#1=700\nWHILE[#1GT0]DO1\n#1=#1-1\n#100=#100+1\nEND1\nM99", 1_400),
+    "many calls": (
+        "M98 P3 L2\nM30\nO3\n" + "G65 P2\n" * 60 + "M99\nO2\nWHILE[#1LT10]DO1\n#1=#1+1\n#100=#100+1\nEND1\nM99",
+        1_200,
+    ),
+}
+"""Programs that call long subprograms twice, by what those have, and the value of #100 at their end."""
+
+
+@pytest.mark.usefixtures("small_limits")
+@pytest.mark.parametrize("kind", LONG_SUBPROGRAMS)
+def test_a_long_subprogram_that_is_called_again_is_not_endless(kind: str) -> None:
+    program, count = LONG_SUBPROGRAMS[kind]
+    assert values(f"#100=0\n{program}")[100] == count
 
 
 def test_a_safety_line_and_common_codes_run() -> None:
