@@ -699,8 +699,9 @@ class MacroFlow(Flow):
             value = float(word[1:])
             least = f"{plain(value / 1000)} mm" if self.machine.unit is Unit.MM else f"{plain(value / 10000)} in"
             which = f"{count} lengths, the first one here, have" if count > 1 else "This length has"
+            units = "unit" if abs(value) == 1.0 else "units"
             message = (
-                f"{which} no decimal point. cutcomp takes {word} as {plain(value)} units; "
+                f"{which} no decimal point. cutcomp takes {word} as {plain(value)} {units}; "
                 f"{self.dialect.without_point} it is {least}."
             )
             self.log.tell(Severity.WARNING, "FN-POINT", message, *place)

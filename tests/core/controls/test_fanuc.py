@@ -636,6 +636,8 @@ def test_coordinates_without_a_decimal_point_make_one_finding() -> None:
     assert (finding.line, finding.column) == (2, 1)
     (finding,) = findings_of(ran("G20 G1 F10.\nX1. Y- 5\nM30"), "FN-POINT")
     assert finding.text.endswith("cutcomp takes Y-5 as -5 units; at 3401#0 = 0 it is -0.0005 in.")
+    (finding,) = findings_of(ran("G20 G1 F10.\nX1\nM30"), "FN-POINT")
+    assert "takes X1 as 1 unit; " in finding.text
     (finding,) = findings_of(ran("G20 G1 F10.\nX1234567\nM30"), "FN-POINT")
     assert finding.text.endswith("cutcomp takes X1234567 as 1234567 units; at 3401#0 = 0 it is 123.4567 in.")
 
