@@ -8,7 +8,6 @@ from __future__ import annotations
 import asyncio
 from collections.abc import Callable, Iterable
 from concurrent.futures import Future, wait
-from dataclasses import replace
 from functools import partial
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, Final, TypeVar
@@ -346,8 +345,7 @@ class FileActions(DerivationActions):
     @work(group="question")
     async def action_new(self, unit: str) -> None:
         """Start a new program in this unit."""
-        if await self._new("NEW PROGRAM?", Unit(unit)):
-            self.keep_settings(replace(self.settings, unit=Unit(unit)))
+        await self._new("NEW PROGRAM?", Unit(unit))
 
     @work(group="question")
     async def action_guide(self) -> None:

@@ -4,19 +4,12 @@ from __future__ import annotations
 
 import argparse
 import json
-import os
 import re
 import sys
-import threading
 from collections.abc import Iterator
-from concurrent.futures import ProcessPoolExecutor
-from concurrent.futures.process import BrokenProcessPool
-from contextlib import contextmanager
 from dataclasses import dataclass, replace
-from multiprocessing import active_children, get_context
 from pathlib import Path
 from shlex import quote
-from signal import SIG_IGN, SIGINT, signal
 from typing import Final
 
 from app.cli.control_options import add_options, bytes_of, control_of, tools_of, unit_of
@@ -33,9 +26,6 @@ from core.units import Unit
 JSON_VERSION: Final = 1
 """Increases when a field of the JSON changes its meaning or is removed, but not for new fields."""
 
-FILES_AT_ONCE: Final = 4
-"""The most files given to a process at a time: more would delay the first answers."""
-
 MOST_NAMES: Final = 10
 """The most suffixes (or names without one) listed for the files that are left out."""
 
@@ -49,7 +39,7 @@ def check(arguments: list[str]) -> int:
     if options.contour:
         return _contours(paths, asked)
     single = len(paths) == 1 and paths[0] == options.files[0]
-    answers = _answers(paths, asked)
+    answers = (_check_file(path, asked) for path in paths)
     if options.json:
         return _as_json(answers)
     return _as_text(answers, asked) if single else _as_summary(answers)
@@ -120,53 +110,6 @@ def _check_file(path: Path, asked: Asked) -> _Checked:
     asked = replace(asked, library=FolderLibrary(path.parent))
     answers = answer_all(text, asked) if asked.control == "all" else (answer(text, asked),)
     return _Checked(path, answers, text=text if any(result.missing for result in answers) else b"")
-
-
-def _answers(paths: list[Path], asked: Asked) -> Iterator[_Checked]:
-    """Yield every file's answers in order; several files are checked in several processes."""
-    workers = min(len(paths), os.cpu_count() or 1)
-    if workers < 2:
-        yield from (_check_file(path, asked) for path in paths)
-        return
-    with ProcessPoolExecutor(workers, mp_context=get_context("spawn")) as pool:
-        with _uninterrupted():
-            at_once = max(1, min(FILES_AT_ONCE, len(paths) // (8 * workers)))
-            answers = pool.map(_check_file, paths, [asked] * len(paths), chunksize=at_once)
-        try:
-            yield from answers
-        except BrokenProcessPool:
-            raise Unusable("A process that checked files was ended from outside; the rest is not checked.") from None
-        except BaseException:
-            # drop the work in progress, and silence the pool's own thread, which would report that it is canceled
-            threading.excepthook = lambda _: None
-            _end(pool)
-            raise
-
-
-def _end(pool: ProcessPoolExecutor) -> None:
-    """End a pool's processes in the middle of their work.
-
-    A process that is killed while it sends a long answer leaves half of it in the pipe; the pool's thread would wait
-    forever for the other half if this process held that end of the pipe open.
-    """
-    for process in active_children():
-        process.kill()
-    # the library has no public name for it
-    pool._result_queue._writer.close()  # type: ignore[attr-defined]
-
-
-@contextmanager
-def _uninterrupted() -> Iterator[None]:
-    """Make processes that start here ignore Ctrl+C, which is for the process that starts them."""
-    try:
-        before = signal(SIGINT, SIG_IGN)
-    except ValueError:  # not in the main thread, which alone receives signals
-        yield
-        return
-    try:
-        yield
-    finally:
-        signal(SIGINT, before)
 
 
 def _status_of(checked: _Checked) -> int:

@@ -13,9 +13,7 @@ from typing import Final
 
 from app.documents.files import read_file, why, write_text
 from core.program.file.read import StoreError
-from core.units import Unit
 
-MAX_RECENT_FILES: Final = 8
 MAX_FILES_WITH_TOOLS: Final = 100
 """The most NC programs whose tools are remembered."""
 MAX_SETTINGS_BYTES: Final = 1_000_000
@@ -26,16 +24,15 @@ THEMES: Final = ("dark", "light")
 
 @dataclass(frozen=True, slots=True)
 class Settings:
-    """A user's settings.  `recent`: absolute paths, the last used first.  A text is empty until a value is chosen.
+    """A user's settings; a text is empty until a value is chosen.
 
-    `control` is the full name of the control that NC programs run on.  `tools` pairs the absolute path of an NC program
-    with the diameters given to its tools, such as `1=0.5in 2=12.0mm`; the last given comes first.
+    `folder` is that of the last file opened or saved, `control` the full name of the control that NC programs run on.
+    `tools` pairs the absolute path of an NC program with the diameters given to its tools, such as `1=0.5in 2=12.0mm`;
+    the last given comes first.
     """
 
-    recent: tuple[str, ...] = ()
     characters: str = ""
     theme: str = ""
-    unit: Unit = Unit.IN
     folder: str = ""
     mouse: bool = False
     control: str = ""
@@ -55,12 +52,8 @@ class Settings:
 
     def using(self, file: Path) -> Settings:
         """Return the settings after a file was opened or saved; an unprintable path is not remembered."""
-        here = file.absolute()
-        name = str(here)
-        if not name.isprintable():
-            return self
-        others = tuple(path for path in self.recent if path != name)
-        return replace(self, recent=(name, *others)[:MAX_RECENT_FILES], folder=str(here.parent))
+        folder = str(file.absolute().parent)
+        return replace(self, folder=folder) if folder.isprintable() else self
 
 
 def settings_file() -> Path:
@@ -73,14 +66,12 @@ def settings_file() -> Path:
 def parsed(text: str) -> Settings:
     """Return the settings in a file's text, without unusable values; raise ValueError if it is not TOML."""
     held = tomllib.loads(text)
-    recent, unit, tools = held.get("recent"), held.get("unit"), held.get("tools")
+    tools = held.get("tools")
     # older files call the characters `mode`
     characters = held.get("characters", held.get("mode"))
     return Settings(
-        tuple(filter(_usable, recent))[:MAX_RECENT_FILES] if isinstance(recent, list) else (),
         characters if characters in CHARACTER_SETS else "",
         held["theme"] if held.get("theme") in THEMES else "",
-        Unit(unit) if unit in tuple(Unit) else Unit.IN,
         held["folder"] if _usable(held.get("folder")) else "",
         held.get("mouse") is True,
         held["control"] if isinstance(held.get("control"), str) else "",
@@ -100,16 +91,13 @@ def _usable_tools(named: tuple[str, object]) -> bool:
 
 def written(settings: Settings) -> str:
     """Return the text of a settings file."""
-    recent = "".join(f"  {_quoted(name)},\n" for name in settings.recent)
     lines = (
         "# cutcomp writes this file anew; what else is put into it is lost",
-        f"unit = {_quoted(settings.unit)}",
         f"characters = {_quoted(settings.characters)}",
         f"theme = {_quoted(settings.theme)}",
         f"folder = {_quoted(settings.folder)}",
         f"mouse = {str(settings.mouse).lower()}",
         f"control = {_quoted(settings.control)}",
-        f"recent = [\n{recent}]",
         "[tools]",
         *(f"{_quoted(name)} = {_quoted(text)}" for name, text in settings.tools),
     )

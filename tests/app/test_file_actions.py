@@ -167,7 +167,7 @@ async def test_save_as_changes_the_name_and_returns_to_the_form(folder):
         assert load(folder / "other.toml") == user.session.program
         assert user.session.file == folder / "other.toml"
         assert user.at == "segment"
-        assert load_settings(folder / "settings.toml")[0].recent[0] == str(folder / "other.toml")
+        assert load_settings(folder / "settings.toml")[0].folder == str(folder)
 
 
 async def test_save_as_asks_before_replacing_a_file(folder):

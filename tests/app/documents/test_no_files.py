@@ -14,7 +14,7 @@ from app.documents.files import load, write_output
 from app.documents.journal_file import journal_path
 from app.documents.programs import is_nc
 from app.documents.service import Opened, Trouble
-from app.documents.settings import load_settings
+from app.documents.settings import Settings, load_settings
 from app.documents.tool_tables import read_table
 from core.program.file.read import StoreError
 from core.units import Unit
@@ -63,7 +63,7 @@ def test_anything_in_place_of_settings_is_ignored_and_named(tmp_path: Path, what
     path = tmp_path / "settings.toml"
     put_something(path, what)
     settings, trouble = load_settings(path)
-    assert settings.recent == ()
+    assert settings == Settings()
     assert EVERYTHING[what] in trouble
 
 

@@ -5,39 +5,31 @@ from pathlib import Path
 
 import pytest
 
-from app.documents.settings import MAX_RECENT_FILES, Settings, SettingsFile, load_settings, parsed, written
-from core.units import Unit
+from app.documents.settings import Settings, SettingsFile, load_settings, parsed, written
 
 
 def test_settings_are_read_as_they_were_written(tmp_path):
-    settings = Settings(
-        (str(tmp_path / 'a "b".toml'),), "block", "light", Unit.MM, str(tmp_path), mouse=True, control="fanuc:b"
-    )
+    settings = Settings("block", "light", str(tmp_path / 'a "b"'), mouse=True, control="fanuc:b")
     settings = settings.with_tools(tmp_path / 'a "b".nc', "1=0.5in").with_tools(tmp_path / "b.nc", "2=12.0mm")
     assert parsed(written(settings)) == settings
     assert settings.tools_of(tmp_path / 'a "b".nc') == "1=0.5in"
 
 
-def test_the_last_used_file_comes_first_and_the_oldest_are_dropped(tmp_path):
-    settings = Settings()
-    for number in range(MAX_RECENT_FILES + 3):
-        settings = settings.using(tmp_path / f"{number}.toml")
-    settings = settings.using(tmp_path / "5.toml")
-    assert settings.recent[:2] == (str(tmp_path / "5.toml"), str(tmp_path / f"{MAX_RECENT_FILES + 2}.toml"))
-    assert len(settings.recent) == len(set(settings.recent)) == MAX_RECENT_FILES
+def test_the_folder_of_the_last_used_file_is_kept(tmp_path):
+    settings = Settings().using(tmp_path / "first" / "1.toml").using(tmp_path / "2.toml")
     assert settings.folder == str(tmp_path)
+    assert settings.using(tmp_path / "un\nprintable" / "3.toml") == settings
 
 
 def test_a_file_of_an_earlier_version_is_read():
-    assert parsed('unit = "MM"\nmode = "ascii"\n') == Settings(characters="ascii", unit=Unit.MM)
+    assert parsed('unit = "MM"\nrecent = ["/a.toml"]\nmode = "ascii"\n') == Settings(characters="ascii")
 
 
 @pytest.mark.parametrize(
     "text",
     [
-        'unit = "FURLONG"\n',
-        "recent = 3\n",
-        'recent = ["not/absolute"]\n',
+        "folder = 3\n",
+        'folder = "not/absolute"\n',
         'theme = "pink"\n',
         "control = 3\n",
         "tools = 3\n",
@@ -69,7 +61,7 @@ def test_only_changes_are_written_and_a_failure_is_reported_once(tmp_path):
     keeper = SettingsFile(tmp_path / "folder" / "settings.toml", Settings())
     assert keeper.keep(Settings()) == ""
     assert not (tmp_path / "folder").exists()
-    changed = replace(Settings(), unit=Unit.MM)
+    changed = replace(Settings(), characters="ascii")
     assert keeper.keep(changed) == ""
     assert load_settings(tmp_path / "folder" / "settings.toml")[0] == changed
     blocked = SettingsFile(Path("/proc/nowhere/settings.toml"), Settings())
