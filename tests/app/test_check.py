@@ -454,7 +454,7 @@ def test_linuxcnc_finds_a_named_subprogram_in_its_own_file(tmp_path: Path, capsy
     assert check([str(main), "--control", "linuxcnc", "--json"]) == 0
     (result,) = json.loads(capsys.readouterr().out)["results"]
     moves = [(move["line"], move["x"], move["y"]) for move in result["moves"][1:]]
-    assert moves == [(2, 10.0, 20.0), (2, 11.0, 20.0), (2, 1.0, 2.0), (4, 50.0, 2.0)]
+    assert moves == [(2, 10.0, 20.0), (2, 11.0, 20.0), (3, 1.0, 2.0), (4, 50.0, 2.0)]
 
 
 @pytest.mark.parametrize(
