@@ -191,6 +191,14 @@ def test_an_area_is_shaded_within_its_region_and_below_lines(mode, style, part):
     }
 
 
+@pytest.mark.parametrize("center", [(0.0, 0.0), (10.0, -7.0)])
+@pytest.mark.parametrize(("style", "row"), [(Style.GOUGE_AREA, "  ⢕⢕⢕⢕  "), (Style.UNCUT_AREA, "  ⠅⡂⠅⡂  ")])
+def test_the_dots_of_an_area_are_a_chessboard_or_every_fourth_wherever_it_lies(center, style, row):
+    x, y = center
+    scene = Scene(areas=(Area(box(x - 2.0, y - 2.0, x + 2.0, y + 2.0), style),), axes=False)
+    assert rows(scene, View(center, 1.0), 8, 4, Mode.BRAILLE) == [" " * 8, row, row, " " * 8]
+
+
 def test_an_uncut_wall_is_two_dots_thick():
     lit = []
     for style in (Style.SURFACE, Style.UNCUT):
@@ -204,6 +212,15 @@ def test_a_label_is_beside_its_point_and_never_on_a_line():
     assert rows(Scene(labels=(label,), axes=False), VIEW, 8, 6, Mode.ASCII)[1] == "   12   "
     wall = Layer(lines((-4, 2.5), (4, 2.5)), Style.SURFACE)
     assert "12" not in "".join(rows(Scene((wall,), labels=(label,), axes=False), VIEW, 8, 6, Mode.ASCII))
+
+
+@pytest.mark.parametrize(
+    ("x", "expected"),
+    [(-3.5, "12      "), (-4.5, "        "), (2.5, "      12"), (3.5, "        ")],
+)
+def test_a_label_that_does_not_fit_is_left_out(x, expected):
+    label = Label((x, 0.0), "12", (0.0, 1.0))
+    assert rows(Scene(labels=(label,), axes=False), VIEW, 8, 6, Mode.ASCII)[1] == expected
 
 
 def test_a_dashed_line_has_gaps():

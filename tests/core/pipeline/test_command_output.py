@@ -17,6 +17,7 @@ from core.pipeline.plot import block_scene, svg_of
 from core.pipeline.unit_question import unit_question
 from core.program.model import (
     ArcSegment,
+    BlendSegment,
     CutterComp,
     Direction,
     LineSegment,
@@ -246,10 +247,32 @@ def test_a_run_is_listed_with_all_its_solutions():
 def test_the_unit_is_asked_for_small_parts_and_large_tools(corner, lengths):
     """The tool is 0.5 across: half of the smaller side at 1 inch; no part is meant to be smaller than a quarter."""
     x, y = corner
-    question = unit_question(derive(program(block(((0, 0), (x, 0), (x, y), (0, y), (0, 0)), CutterComp.RIGHT))))
+    corners = ((3, 2), (3 + x, 2), (3 + x, 2 + y), (3, 2 + y), (3, 2))
+    question = unit_question(derive(program(block(corners, CutterComp.RIGHT))))
     assert (None if question is None else tuple(value / 25.4 for value in question.lengths)) == (
         None if lengths is None else pytest.approx(lengths)
     )
     if question is not None:
         assert question.text.endswith("The program is in INCH.")
     assert unit_question(derive(program(block(((0, 0), (x, 0), (x, y)), CutterComp.RIGHT)))) is None
+
+
+def test_every_segment_of_the_document_has_the_kind_that_was_typed():
+    mixed = block(((0, 0), (4, 0), (4, 4)), CutterComp.ON)
+    typed = (mixed.segments[0], BlendSegment(Number(0.5)), mixed.segments[1])
+    (only,) = path_document(derive(program(replace(mixed, segments=typed))))["blocks"]
+    assert [segment["kind"] for segment in only["segments"]] == ["LINE", "BLEND ARC", "LINE"]
+
+
+@pytest.mark.parametrize(("comp", "count", "recommended"), [(CutterComp.LEFT, 20, 3), (CutterComp.ON, 0, None)])
+def test_only_a_compensated_contour_has_a_table(comp, count, recommended):
+    part = program(block(NOTCH, comp))
+    (derived_block,) = derive(part).blocks
+    table = look_ahead_table(derived_block, part)
+    document = table_document(derived_block, table, Unit.IN)
+    assert (len(document["values"]), document["recommended"]) == (count, recommended)
+    assert [need["text"] for need in document["needs"]] == (
+        [] if table is None else [sentence(note, Unit.IN) for note in table.notes]
+    )
+    lines = list(table_listing(derived_block, table, Unit.IN))
+    assert ("There is no contour to compensate yet" in lines[1]) is (table is None)

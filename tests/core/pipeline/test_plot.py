@@ -8,10 +8,10 @@ import pytest
 from app.documents.files import load
 from app.documents.programs import example
 from core.draw.characters import Mode
-from core.draw.scene import Style
+from core.draw.scene import Mark, Scene, Style, Symbol
 from core.draw.view import CELL_HEIGHT, View
 from core.pipeline.derive import derive, look_ahead_table
-from core.pipeline.plot import LOUPE_HEIGHT_RADII, Subject, block_scene, nearest_segment, svg_of
+from core.pipeline.plot import LOUPE_HEIGHT_RADII, SceneSubject, Subject, block_scene, nearest_segment, svg_of
 from core.program.model import ArcSegment, CutterComp, Direction, LineSegment, Number, PathChoice
 from core.units import Unit
 from tests.core.pipeline.parts import MID_SIDE_SQUARE, NOTCH, OVER_RUN_SQUARE, block, program
@@ -167,3 +167,36 @@ def test_a_row_of_the_look_ahead_table_is_drawn_with_its_own_path():
         (drawn,) = [layer for layer in scene.layers if layer.style is Style.PATH]
         (only,) = drawn.parts
         assert only.points.tolist() == path.points.tolist()
+
+
+@pytest.mark.parametrize("mode", list(Mode))
+def test_a_scene_is_drawn_in_the_view_that_fits_it_or_in_the_one_chosen(mode):
+    scene = block_scene(derived(program(block(MID_SIDE_SQUARE, CutterComp.LEFT))), None, Unit.IN)
+    drawn = SceneSubject(scene, Unit.IN).drawn(60, 20, mode)
+    assert drawn.view == View.fit(drawn.bounds, 60, 20)
+    assert (len(drawn.picture.rows), {len(row) for row in drawn.picture.rows}) == (20, {60})
+    assert drawn.scale_bar.endswith("in") or drawn.scale_bar.endswith("IN")
+    chosen = View((0.0, 0.0), 1.0)
+    assert SceneSubject(scene, Unit.IN, chosen).drawn(60, 20, mode).view == chosen
+    for nothing in (
+        SceneSubject(Scene(), Unit.IN).drawn(60, 20, mode),
+        SceneSubject(scene, Unit.IN).drawn(60, 0, mode),
+    ):
+        assert nothing is None
+
+
+def test_an_outline_is_the_surface_with_its_numbered_places_alone():
+    subject = Subject(derived(program(block(NOTCH, CutterComp.LEFT))), Unit.IN)
+    trouble = Mark((2.15 * 25.4, 0.0), Style.GOUGE, Symbol.NUMBER, text="7")
+    drawn = replace(subject, outline=True, trouble=(trouble,)).drawn(60, 20, Mode.ASCII)
+    styles = {Style(style) for row in drawn.picture.styles for style in row}
+    assert styles == {Style.BACKGROUND, Style.SURFACE, Style.GOUGE}
+    assert sum(row.count("7") for row in drawn.picture.rows) == 1
+
+
+def test_a_cutter_of_a_few_dots_leaves_the_surface_and_its_faults():
+    subject = Subject(derived(program(block(NOTCH, CutterComp.LEFT))), Unit.IN)
+    small, large = (subject.drawn(*size, Mode.BRAILLE).picture.styles for size in ((12, 4), (120, 40)))
+    seen = [{Style(style) for row in styles for style in row} for styles in (small, large)]
+    assert [Style.PATH in each for each in seen] == [False, True]
+    assert Style.GOUGE in seen[0]

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import json
 import random
+from collections.abc import Callable
 from itertools import product
 from math import cos, dist, radians, sin, tan
 from pathlib import Path
@@ -89,15 +90,38 @@ def test_answer_numbers_stay_when_the_drawing_is_rotated(degrees: int) -> None:
     assert {round(answer["total"], 6): answer["choice"] for answer in turned} == picked
 
 
-def _turned(case: dict[str, Any], angle: float) -> dict[str, Any]:
-    def point(x: float, y: float) -> tuple[float, float]:
-        return x * cos(angle) - y * sin(angle), x * sin(angle) + y * cos(angle)
+@pytest.mark.parametrize("case", SOLVED, ids=name)
+def test_the_answers_of_a_moved_drawing_are_moved(case: dict[str, Any]) -> None:
+    apart_by = {"x_end": 300, "y_end": -70, "x_center": 300, "y_center": -70}
+    answers, moved = (
+        [answer["segments"] for run in document(each)["runs"] for answer in run["solutions"]]
+        for each in (case, _placed(case, lambda x, y: (x + 300, y - 70)))
+    )
+    wanted = [
+        [
+            {field: value + apart_by.get(field, 0) if field in apart_by else value for field, value in segment.items()}
+            for segment in answer
+        ]
+        for answer in answers
+    ]
+    assert [len(answer) for answer in moved] == [len(answer) for answer in answers]
+    for answer, other in zip(moved, wanted, strict=True):
+        for segment, expected in zip(answer, other, strict=True):
+            assert segment == pytest.approx(expected, abs=1e-5)
 
+
+def _turned(case: dict[str, Any], angle: float) -> dict[str, Any]:
+    return _placed(case, lambda x, y: (x * cos(angle) - y * sin(angle), x * sin(angle) + y * cos(angle)))
+
+
+def _placed(case: dict[str, Any], point: Callable[[float, float], tuple[float, float]]) -> dict[str, Any]:
+    """A case at another place; where only one coordinate is typed, the other counts as 0."""
     segments = [dict(segment) for segment in case["segments"]]
     for segment in segments:
-        for x, y in (("x_center", "y_center"), ("x_end", "y_end")):
-            if x in segment:
-                segment[x], segment[y] = point(segment[x], segment[y])
+        for x, y in (("x_center", "y_center"), ("x_end", "y_end"), ("point_x", "point_y")):
+            typed = {x, y} & segment.keys()
+            place = dict(zip((x, y), point(segment.get(x, 0), segment.get(y, 0)), strict=True))
+            segment |= {field: place[field] for field in typed}
     return case_of(*segments, start=point(*case["start"]))
 
 
@@ -193,6 +217,22 @@ BAD = [
      case_of(line(x_end=40, y_end=0), ccw(x_center=0, y_center=0, radius=40, x_end=0, y_end=41))),
     ("PARALLEL_TO", "PARALLEL TO 2: segment 2 is no LINE. Enter the number of an earlier LINE.",
      case_of(line(x_end=5, y_end=5), ccw(radius=5, x_end=9, y_end=9), line(parallel=2, x_end=20, y_end=0))),
+    ("CONTRADICTION", "XY ANGLE comes to 53.130, but 45.000 by PARALLEL TO: correct the end, or blank PARALLEL TO.",
+     case_of(line(x_end=50, y_end=50), line(parallel=1, x_end=80, y_end=90))),
+    ("CONTRADICTION", "Segment 2 is not tangent to the one before: the corner turns by -2.862 degrees.",
+     case_of(line(x_end=40, y_end=0), line(tangent=True, x_end=60, y_end=-1))),
+    ("INSIDE", "The point 5.000 0.000 lies inside the circle of segment 1: no line from it is tangent.",
+     case_of(ccw(x_center=0, y_center=0, radius=20), line(tangent=True, x_end=5, y_end=0), start=(0, -20))),
+    ("TOO_SMALL", "RADIUS 1.000 fits nowhere between the segments before and after segment 1.",
+     case_of(ccw(radius=1), line(tangent=True, angle=0, x_end=5, y_end=5))),
+    ("MISSING", "Segments 1 to 3 need 1 more value: XY LENGTH of 2, or an end (X END or Y END), or TANGENT YES on 3.",
+     case_of(ccw(x_center=10, y_center=0), line(tangent=True), line(angle=90, x_end=60, y_end=50))),
+    ("MISSING", "Segments 1 to 3 need 1 more value: RADIUS of 2, or an end (X END or Y END), or TANGENT YES on 2.",
+     case_of(line(angle=0), ccw(x_center=20, y_center=5), line(angle=90, x_end=60, y_end=50))),
+    ("MISSING", "Segments 1 to 3 need 2 more values: XY ANGLE of 2, or an end (X END or Y END).",
+     case_of(ccw(x_center_inc=20, y_center_inc=5), line(), line(angle=90, x_end=60, y_end=50))),
+    ("MISSING", "Segments 1 and 2 need 2 more values: SWEEP ANGLE of 1, or an end (X END or Y END), or TANGENT YES on",
+     case_of(ccw(radius=1), ccw(radius=1, x_end=50, y_end=5))),
     ("PARALLEL_TO", "PARALLEL TO 2 is not before segment 2: enter the number of an earlier LINE.",
      case_of(line(x_end=5, y_end=5), line(parallel=2, x_end=9, y_end=0))),
 ]  # fmt: skip

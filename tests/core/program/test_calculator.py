@@ -66,17 +66,18 @@ def test_a_height_over_a_sweep_next_to_none_gives_its_arc() -> None:
     assert flat["height"] == pytest.approx(0.001, rel=1e-9)
 
 
-def test_both_tangents_from_a_point_touch_the_circle_at_a_right_angle() -> None:
-    left, right = answers("TANGENT FROM A POINT", x=0, y=0, x_center=50, y_center=20, radius=15)
+@pytest.mark.parametrize(("x", "y"), [(0, 0), (7, -3)])
+def test_both_tangents_from_a_point_touch_the_circle_at_a_right_angle(x: int, y: int) -> None:
+    left, right = answers("TANGENT FROM A POINT", x=x, y=y, x_center=x + 50, y_center=y + 20, radius=15)
     for found in (left, right):
-        way = (found["x_touch"], found["y_touch"])
+        way = (found["x_touch"] - x, found["y_touch"] - y)
         assert hypot(way[0] - 50, way[1] - 20) == pytest.approx(15)
         assert way[0] * (way[0] - 50) + way[1] * (way[1] - 20) == pytest.approx(0.0, abs=1e-9)
         assert found["length"] == pytest.approx(sqrt(50**2 + 20**2 - 15**2))
         assert (cos(radians(found["angle"])), sin(radians(found["angle"]))) == pytest.approx(
             (way[0] / found["length"], way[1] / found["length"])
         )
-    assert (left["x_touch"], left["y_touch"]) == pytest.approx((51.471076, 5.072310), abs=1e-6)
+    assert (left["x_touch"], left["y_touch"]) == pytest.approx((x + 51.471076, y + 5.072310), abs=1e-6)
 
 
 def test_a_hole_of_a_bolt_circle() -> None:

@@ -225,14 +225,15 @@ def test_a_number_out_of_range_is_kept_as_typed(form: Form, name: str, text: str
     assert text_refusal(text, one, Unit.IN) == unread_reason(text, one, Unit.IN) == why
 
 
-@pytest.mark.parametrize("text", ["I2.5", "i 2.5", "2.5I", "2 1/2 i"])
+@pytest.mark.parametrize("text", ["I2.5", "i 2.5", "2.5I", "2 1/2 i", "5/2I", "2.5 I"])
 def test_an_i_before_or_after_a_number_counts_from_the_start_of_the_segment(text: str) -> None:
     end, start = field_of(Form.LINE, "x_end"), field_of(Form.START, "x_start")
     assert read_typed(text, end, Unit.IN) == Relative(2.5)
+    assert read_typed("12I", end, Unit.IN) == Relative(12.0)
     assert isinstance(read_typed(text, start, Unit.IN), Unread)
 
 
-@pytest.mark.parametrize("text", ["I", "in", "2.5in", "inI"])
+@pytest.mark.parametrize("text", ["I", "in", "2.5in", "inI", "2.5mmI"])
 def test_an_i_that_is_part_of_a_word_is_not_relative(text: str) -> None:
     assert not isinstance(read_typed(text, field_of(Form.LINE, "x_end"), Unit.IN), Relative)
 

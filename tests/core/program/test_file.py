@@ -288,3 +288,8 @@ def test_a_missing_key_has_the_line_of_its_table():
 
 def test_dotted_keys_have_lines():
     assert key_lines("setup.name = 'A'\n")["setup", "name"] == 1
+
+
+def test_a_file_that_is_not_utf_8_is_refused_with_its_line() -> None:
+    with pytest.raises(StoreError, match=r"^part\.toml, line 3: this is not UTF-8 text\."):
+        loads_bytes("# a\n# b\n# größer\n# c\n".encode("latin-1"), "part.toml")
