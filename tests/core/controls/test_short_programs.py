@@ -59,6 +59,10 @@ FANUC = {
     "G91 G68 X0 Y0 R30.": "FN-ROTATION 2:5 cutcomp takes R of G68 as an angle from 0.",
     "G51 X0 P9": "BEYOND 2:8 P of G51 without a decimal point counts thousandths: here it is a factor of 0.009.",
     "G10 L20 X1.": "PS0031 2:1 G10 needs P",
+    "G54 P2 X1.": "OFFSET 2:1 The offset of G54.1 P2 is not in the program",
+    "G54 P2 G80 X1.": "OFFSET 2:1 The offset of G54.1 P2 is not in the program",
+    "G28 P2 X1.": "UNUSED 2:5 No code in this block uses P.",
+    "G1 X1. Q2.": "UNUSED 2:8 No code in this block uses Q.",
     "X#34": "PS0115 2:2 #34 is not a variable",
     "X#200": "PS0115 2:2 #200 is not a variable",
     "X#1136": "PS0115 2:2 #1136 is not a variable",
@@ -143,6 +147,9 @@ OTHERS = {
     ("nine-series:a", "G2 G41 D1 X30. I15. J0"): "R1 2:4 Compensation cannot be started in G2 or G3",
     ("nine-series:a", "G41 D1\nG2 X30. I15. J0"): "R1 3:1 Compensation cannot be started in G2 or G3",
     ("nine-series:a", "G41 D1 G1 X9.\nX20.\nG40\nG2 X30. I5. J0"): "R2 5:1 Block format error",
+    ("nine-series:a", "M800\nG41 D1 G1 X9.\nX20.\nY3.\nX0\nY9."): "R8 5:1 The compensated move runs backwards",
+    ("nine-series:b", "G41 D1 G1 X0 Y9.\nX20.\nY0\nG40 X0"): "TYPE-B 2:1 cutcomp takes the generated blocks",
+    ("nine-series:a", "G30 X1. P2"): "UNUSED 2:9 No code in this block uses P.",
     ("nine-series:a", "G10 L2 P7 X1."): "DATA 2:5 A work offset is set by G10 L2 P1 to P6",
     ("nine-series:a", "G10 L20 P1 X1."): "DATA 2:5 cutcomp sets only work offsets",
     ("threeblock", "T5//"): "TOOL 2:1 This tool data sets neither length nor diameter",
@@ -263,3 +270,31 @@ OTHER_ENDS = {
 def test_a_short_program_ends_at(control: str, blocks: str) -> None:
     run = ran(f"G21 F9.\n{blocks}\nM30\n", control, t1=5.0)
     assert (run.stopped_at, lines_and_ends(run)[-1]) == (None, OTHER_ENDS[control, blocks])
+
+
+@pytest.mark.parametrize(
+    "block",
+    [
+        "G30 X1. P2",
+        "G4 P1",
+        "G4 X1.",
+        "G10 L2 P1 X0",
+        "G2 X1. Y1. R1.",
+        "G2 X0 Y0 I1. J0",
+        "G81 X1. Z-1. R1. K1",
+        "G82 X1. Z-1. R1. P1",
+        "G83 X1. Z-1. R1. Q1.",
+        "G43 H1",
+        "G54.1 P1 X0",
+        "G68 X0 Y0 R30.",
+        "G51 X0 Y0 P2.",
+        "G54 P2 G81 Z-1. R1.",
+        "G54 G4 P1",
+        "G54 M98 P1\nM30\nO1\nM99",
+        "X1. D1 H1",
+    ],
+)
+def test_a_word_that_a_code_of_its_block_uses_is_not_reported(block: str) -> None:
+    run = ran(f"G21 F9.\nG55\n{block}\nM30\n", "fanuc:a", t1=5.0)
+    assert {finding.code for finding in run.findings} <= {"OFFSET", "HOME", "DWELL"}, run.findings
+    assert not any("G54.1 P2" in finding.text for finding in run.findings)

@@ -12,7 +12,7 @@ import shapely
 from core.geometry.chords import chords_of
 from core.geometry.path import Path
 from core.geometry.piece import Arc, Line, Piece, Turn
-from core.importing.clean_up import reversed_piece
+from core.importing.clean_up import LayeredPiece, clean_up, reversed_piece
 from core.importing.contour import (
     ContourKind,
     fitted_contour,
@@ -25,6 +25,8 @@ from core.importing.contour import (
 )
 from core.importing.contours import frame_notes, with_joined
 from core.importing.listing import matching, rows_of
+from core.importing.segments import with_contours
+from core.program.model import CutterComp, Program
 from core.units import Unit
 from tests.core.importing.drawings import (
     arc,
@@ -563,3 +565,52 @@ def test_a_contour_starts_on_its_arc_where_that_is_nearest_to_a_place(angle: flo
     x, y = math.cos(math.radians(angle)), math.sin(math.radians(angle))
     for start in (contour, reversed_contour(contour)):
         assert started_at(start, (9.0 * x, 9.0 * y)).start == pytest.approx((5.0 * x, 5.0 * y))
+
+
+@pytest.mark.parametrize("side", [CutterComp.LEFT, CutterComp.RIGHT, CutterComp.ON, None])
+def test_the_side_that_is_answered_is_that_of_open_contours_only(side: CutterComp | None) -> None:
+    closed, opened = listed(dxf(*square(0, 0, 10), line((20, 0), (30, 0)), line((30, 0), (30, 5)))).contours
+    hole = reversed_contour(closed)
+    program, made = with_contours(Program(unit=Unit.MM), [closed, hole, opened], side)
+    wanted = [CutterComp.LEFT, CutterComp.RIGHT, side or CutterComp.ON]
+    assert [block.cutter_comp for block in program.blocks] == wanted
+    asked = ("Chain 2 is open: choose CUTTER COMP. on START.",)
+    assert [item.notes for item in made] == [(), (), asked if side is None else ()]
+
+
+@pytest.mark.parametrize("center", [(0.0, 0.0), (35.0, -12.0)])
+@pytest.mark.parametrize("turned", [False, True])
+def test_a_circle_of_many_lines_becomes_a_circle_wherever_it_lies(center: tuple[float, float], turned: bool) -> None:
+    angles = [math.tau * k / 360 for k in range(361)]
+    points = [(center[0] + 20 * math.cos(angle), center[1] + 20 * math.sin(angle)) for angle in angles]
+    (contour,) = listed(dxf(*(line(p, q) for p, q in itertools.pairwise(points)))).contours
+    (piece,) = fitted_contour(reversed_contour(contour) if turned else contour, 0.005).pieces
+    assert isinstance(piece, Arc)
+    assert piece.center == pytest.approx(center, abs=1e-6)
+    assert piece.radius == pytest.approx(20.0, abs=1e-6)
+    assert piece.turn is (Turn.CCW if turned else Turn.CW)
+
+
+@pytest.mark.parametrize("turns", [(1, 1), (1, -1), (-1, 1), (-1, -1)])
+@pytest.mark.parametrize(
+    ("first", "second", "loose"),
+    [((0, 90), (60, 150), (150, 0)), ((60, 150), (0, 90), (150, 0)), ((0, 150), (30, 90), (150, 0))],
+)
+def test_arcs_that_overlap_keep_what_continues_at_their_ends(
+    turns: tuple[int, int], first: tuple[int, int], second: tuple[int, int], loose: tuple[int, int]
+) -> None:
+    """The arc from 0 to 150 degrees and a line away from each of its ends are one open contour."""
+
+    def at(angle: float, radius: float = 10.0) -> tuple[float, float]:
+        return radius * math.cos(math.radians(angle)), radius * math.sin(math.radians(angle))
+
+    def piece(angles: tuple[int, int], turn: int) -> Arc:
+        begin, end = angles[::turn]
+        return Arc(at(begin), at(end), (0.0, 0.0), Turn(turn))
+
+    arcs = [LayeredPiece(piece(angles, turn), "0") for angles, turn in zip((first, second), turns, strict=True)]
+    lines = [LayeredPiece(Line(at(angle), at(angle, 15.0)), "0") for angle in loose]
+    cleaned = clean_up([*arcs, *lines], 0.01)
+    assert (cleaned.overlaps, len(cleaned.pieces)) == (1, 3)
+    (joined,) = (item.piece for item in cleaned.pieces if isinstance(item.piece, Arc))
+    assert abs(joined.sweep) == pytest.approx(math.radians(150))
