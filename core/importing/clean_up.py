@@ -19,7 +19,7 @@ from core.geometry.chords import chords_of
 from core.geometry.path import Path
 from core.geometry.piece import Arc, Line, Piece, Point, Turn
 from core.importing.nesting import CHORD_ERROR
-from core.importing.nodes import KEY_DECIMALS, Nodes, exact_nodes, nodes_of
+from core.importing.nodes import KEY_DECIMALS, Groups, Nodes, exact_nodes, nodes_of
 
 MOST_SLACK: Final = 0.01
 """Largest distance in millimeters of equal or collinear pieces, even if TOLERANCE is larger."""
@@ -129,22 +129,14 @@ def _without_tiny(items: list[LayeredPiece], tolerance: float) -> list[LayeredPi
     return [item for row, item in enumerate(items) if row not in dropped]
 
 
-def _runs(nodes: Nodes) -> Iterator[list[int]]:
-    """Yield the connected groups of pieces, as rows."""
-    seen = [False] * len(nodes.of_piece)
-    for first in range(len(seen)):
-        if seen[first]:
-            continue
-        seen[first], run, waiting = True, list[int](), [first]
-        while waiting:
-            row = waiting.pop()
-            run.append(row)
-            for node in nodes.of_piece[row]:
-                for other in nodes.pieces[node]:
-                    if not seen[other]:
-                        seen[other] = True
-                        waiting.append(other)
-        yield run
+def _runs(nodes: Nodes) -> list[list[int]]:
+    """Return the connected groups of pieces, as rows."""
+    groups, runs = Groups(len(nodes.places)), defaultdict[int, list[int]](list)
+    for ends in nodes.of_piece:
+        groups.join(*ends)
+    for row, (first, _) in enumerate(nodes.of_piece):
+        runs[groups.root(first)].append(row)
+    return list(runs.values())
 
 
 def _without_duplicates(items: list[LayeredPiece], tolerance: float, cleaned: Cleaned) -> list[LayeredPiece]:
@@ -210,7 +202,7 @@ def _faces(
     nodes = nodes_of(pieces, tolerance)
     chords: list[list[Point]] = []
     for piece, (start, end) in zip(pieces, nodes.of_piece, strict=True):
-        inner = chords_of(Path.from_pieces([piece]), CHORD_ERROR)[1:-1].tolist()
+        inner = [] if isinstance(piece, Line) else chords_of(Path.from_pieces([piece]), CHORD_ERROR)[1:-1].tolist()
         chords.append([nodes.places[start], *map(tuple, inner), nodes.places[end]])
     number_of = {frozenset(points[:2]): number for points, number in zip(chords, numbers, strict=True)}
     rings = [face.exterior.coords for face in shapely.polygonize([shapely.LineString(line) for line in chords]).geoms]

@@ -132,8 +132,6 @@ def contours_of(drawing: Drawing, options: ImportOptions, progress: Progress = s
     contours = [contour for contour in contours if contour.pieces]
     progress("nesting", 0, 1)
     ordered = _with_open_gaps(_nested(contours), options.program_unit, options.tolerance)
-    if result.given_up:
-        notes.append("There are too many branches: closed contours may be listed as open ones. Choose fewer layers.")
     return ContourList(
         drawing,
         options,

@@ -1,22 +1,24 @@
-"""Chains pieces, closed chains first; at a branch it takes the smallest change of direction that leads back.
+"""Chains pieces, closed chains first: the outline around all connected pieces, then the outlines of what is in it.
 
-A trail that returns to a node it has passed completes a closed chain.  Nodes where more than two ends meet are
-branches.  Every piece is in one chain.
+A walk that turns to the right as far as it can, wherever more than two ends meet, goes along one face.  Of connected
+pieces the outermost face is the one whose walk encloses most, counterclockwise.  Where a walk returns to a node it has
+completed a closed chain; pieces that it travels both ways are in none.  Every piece is in one chain.
 """
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Collection, Sequence
 from dataclasses import dataclass, field
 from math import atan2, tau
 from typing import Final, NamedTuple
 
-from core.geometry.piece import Piece, Point
+from core.geometry.piece import Arc, Line, Piece, Point
 from core.importing.clean_up import is_circle, reversed_piece
-from core.importing.nodes import KEY_DECIMALS, Nodes, nodes_of
+from core.importing.nesting import signed_area
+from core.importing.nodes import KEY_DECIMALS, Groups, Nodes, nodes_of
 
-MAX_SEARCH: Final = 5_000_000
-"""Steps of the search for ways back; the pieces left after that many stay in open chains."""
+SAME_DIRECTION: Final = 10.0**-KEY_DECIMALS
+"""Directions in radians that differ by less are one; which of two pieces is on the right follows from their bend."""
 
 
 class Link(NamedTuple):
@@ -24,6 +26,11 @@ class Link(NamedTuple):
 
     row: int
     forward: bool
+
+    @property
+    def back(self) -> Link:
+        """The same piece traveled the other way."""
+        return Link(self.row, not self.forward)
 
 
 @dataclass(slots=True)
@@ -40,8 +47,6 @@ class Chained:
 
     chains: list[Chain] = field(default_factory=list)
     branches: list[tuple[Point, int]] = field(default_factory=list)
-    given_up: bool = False
-    """True if the branches needed a longer search than `MAX_SEARCH`."""
 
 
 def chained(pieces: Sequence[Piece], tolerance: float) -> Chained:
@@ -49,188 +54,116 @@ def chained(pieces: Sequence[Piece], tolerance: float) -> Chained:
     result = Chained()
     rows = [row for row, piece in enumerate(pieces) if not is_circle(piece)]
     result.chains += [Chain([Link(row, True)], True) for row, piece in enumerate(pieces) if is_circle(piece)]
-    walker = _Walker([pieces[row] for row in rows], nodes_of([pieces[row] for row in rows], tolerance))
-    walker.run()
-    for chain in walker.chains:
-        chain.links = [Link(rows[link.row], link.forward) for link in chain.links]
-        result.chains.append(chain)
-    nodes = walker.nodes
+    curves = [pieces[row] for row in rows]
+    nodes = nodes_of(curves, tolerance)
+    for chain in _Chainer(curves, nodes).run():
+        result.chains.append(Chain([Link(rows[link.row], link.forward) for link in chain.links], chain.closed))
     crowded = [(nodes.places[node], nodes.degree(node)) for node in range(len(nodes.places)) if nodes.degree(node) > 2]
     result.branches = sorted(crowded)
-    result.given_up = walker.steps > MAX_SEARCH
     return result
 
 
-class _Step(NamedTuple):
-    """A link and the nodes it leads from and to."""
-
-    link: Link
-    begin: int
-    end: int
-
-
 @dataclass(slots=True)
-class _Walker:
+class _Chainer:
     pieces: list[Piece]
     nodes: Nodes
-    chains: list[Chain] = field(default_factory=list)
-    used: list[bool] = field(default_factory=list)
-    steps: int = 0
-    left: list[int] = field(default_factory=list)
-    """For each node, how many ends of unused pieces it has."""
+    ways: list[list[Link]] = field(default_factory=list)
+    """For each node the links that leave it, counterclockwise."""
+    areas: list[float] = field(default_factory=list)
+    """The area between each piece and a point, positive if it passes that point counterclockwise."""
 
-    def run(self) -> None:
-        """Find the closed chains first, then chain what is left as open chains."""
-        self.used = [False] * len(self.pieces)
-        aside = self._set_trees_aside()
-        for start in self._starts():
-            while self.left[start] and self._closed_from(start):
-                pass
-        for row in aside:
-            self.used[row] = False
-        self._open_chains()
+    def run(self) -> list[Chain]:
+        """Return the closed chains, then what is left as open chains."""
+        self.areas = [signed_area((Line(self.nodes.places[0], piece.start), piece)) for piece in self.pieces]
+        self.ways = [[] for _ in self.nodes.places]
+        for row, (first, last) in enumerate(self.nodes.of_piece):
+            self.ways[first].append(Link(row, True))
+            self.ways[last].append(Link(row, False))
+        for ways in self.ways:
+            ways.sort(key=self._direction)
+        chains, rest = list[Chain](), set(range(len(self.pieces)))
+        while loops := self._loops(self._outlines(rest)):
+            chains += [Chain(loop, True) for loop in loops]
+            rest -= {link.row for loop in loops for link in loop}
+        return chains + self._open_chains(sorted(rest))
 
-    def _set_trees_aside(self) -> list[int]:
-        """Mark pieces that lead to a loose end as used for now: no closed chain holds them.  Return their rows."""
-        self.left = [self.nodes.degree(node) for node in range(len(self.nodes.places))]
-        waiting = [node for node, count in enumerate(self.left) if count == 1]
-        aside: list[int] = []
-        while waiting:
-            node = waiting.pop()
-            row = next((row for row in self.nodes.pieces[node] if not self.used[row]), None)
-            if row is None or self.left[node] != 1:
-                continue
-            self._use(row)
-            aside.append(row)
-            waiting += [other for other in self.nodes.of_piece[row] if self.left[other] == 1]
-        return aside
-
-    def _use(self, row: int) -> None:
-        self.used[row] = True
-        for node in self.nodes.of_piece[row]:
-            self.left[node] -= 1
-
-    def _starts(self) -> list[int]:
-        """Return the nodes from left to right: the leftmost of connected chains is on their outline."""
-        points = self.nodes.places
-        return sorted(range(len(points)), key=lambda node: tuple(round(value, KEY_DECIMALS) for value in points[node]))
-
-    def _closed_from(self, start: int) -> bool:
-        """Walk from a node until the trail ends; keep every closed chain on the way.  False if there was none."""
-        trail: list[_Step] = []
-        on_trail = {start: 0}
-        at, heading, closed_some = start, -tau / 4, False
-        while True:
-            step = self._next(at, heading, on_trail)
-            if step is None:
-                if not trail:
-                    return closed_some
-                # a dead end: the last piece of the trail belongs to no closed chain
-                last = trail.pop()
-                on_trail.pop(last.end, None)
-                at = last.begin
-                heading = self._end_heading(trail[-1].link) if trail else -tau / 4
-                self._leave(last)
-                continue
-            self._use(step.link.row)
-            trail.append(step)
-            at = step.end
-            if at not in on_trail:
-                on_trail[at] = len(trail)
-                heading = self._end_heading(step.link)
-                continue
-            first = on_trail[at]
-            self.chains.append(Chain([step.link for step in trail[first:]], True))
-            closed_some = True
-            for passed in trail[first:]:
-                if passed.end != at:
-                    on_trail.pop(passed.end, None)
-            del trail[first:]
-            if not trail:
-                return True
-            heading = self._end_heading(trail[-1].link)
-
-    def _leave(self, step: _Step) -> None:
-        """Keep a piece for the open chains; it stays used while closed chains are searched."""
-        self.chains.append(Chain([step.link], False))
-
-    def _next(self, node: int, heading: float, on_trail: dict[int, int]) -> _Step | None:
-        """Return the only way on, or the one that leads back with the smallest change of direction."""
-        ways = [
-            way for row in dict.fromkeys(self.nodes.pieces[node]) if not self.used[row] for way in self._ways(row, node)
-        ]
-        if len(ways) > 1:
-            ways.sort(key=lambda way: self._change(way, heading))
-        return next((way for way in ways if len(ways) == 1 or self._leads_back(way, on_trail)), None)
-
-    def _ways(self, row: int, node: int) -> list[_Step]:
-        first, last = self.nodes.of_piece[row]
-        ways = [_Step(Link(row, True), first, last)] if first == node else []
-        return ways + ([_Step(Link(row, False), last, first)] if last == node and first != last else [])
-
-    def _change(self, way: _Step, heading: float) -> tuple[float, float, int]:
-        """Return the sort key of a way: how much it turns, to the right first if two turn equally."""
-        piece = self._traveled(way.link)
+    def _direction(self, link: Link) -> tuple[float, float, int]:
+        """Return the sort key of a link: its direction from its first node, then how it bends to the left."""
+        piece = self.pieces[link.row] if link.forward else reversed_piece(self.pieces[link.row])
         dx, dy = piece.direction_at(piece.start)
-        turned = (atan2(dy, dx) - heading + tau / 2) % tau - tau / 2
-        return round(abs(turned), KEY_DECIMALS), turned, way.link.row
+        direction = atan2(dy, dx) % tau
+        if tau - direction < SAME_DIRECTION:
+            direction = 0.0
+        bend = int(piece.turn) / piece.radius if isinstance(piece, Arc) else 0.0
+        return round(direction, KEY_DECIMALS), bend, link.row
 
-    def _traveled(self, link: Link) -> Piece:
-        return self.pieces[link.row] if link.forward else reversed_piece(self.pieces[link.row])
+    def _end(self, link: Link) -> int:
+        return self.nodes.of_piece[link.row][link.forward]
 
-    def _end_heading(self, link: Link) -> float:
-        piece = self._traveled(link)
-        dx, dy = piece.direction_at(piece.end)
-        return atan2(dy, dx)
+    def _outlines(self, rows: Collection[int]) -> list[list[Link]]:
+        """Return the walk around all of each group of connected pieces."""
+        following: dict[Link, Link] = {}
+        groups = Groups(len(self.ways))
+        for row in rows:
+            groups.join(*self.nodes.of_piece[row])
+        for ways in self.ways:
+            left = [way for way in ways if way.row in rows]
+            # who arrives turns to the right as far as possible: to the next way counterclockwise
+            following |= {way.back: after for way, after in zip(left, (*left[1:], *left[:1]), strict=True)}
+        outlines: dict[int, tuple[float, list[Link]]] = {}
+        for first in list(following):
+            if first not in following:
+                continue
+            walk = [first]
+            while (after := following.pop(walk[-1])) != walk[0]:
+                walk.append(after)
+            area = sum(self.areas[link.row] if link.forward else -self.areas[link.row] for link in walk)
+            group = groups.root(self._end(walk[0]))
+            if group not in outlines or area > outlines[group][0]:
+                outlines[group] = area, walk
+        return [walk for _, walk in outlines.values()]
 
-    def _leads_back(self, way: _Step, on_trail: dict[int, int]) -> bool:
-        """True if unused pieces connect the end of a way to a node of the trail."""
-        if way.end in on_trail:
-            return True
-        seen, waiting = {way.end}, [way.end]
-        while waiting and self.steps <= MAX_SEARCH:
-            node = waiting.pop()
-            for row in self.nodes.pieces[node]:
-                self.steps += 1
-                if self.used[row] or row == way.link.row:
+    def _loops(self, walks: list[list[Link]]) -> list[list[Link]]:
+        """Return the closed chains of walks: each begins and ends at one node and passes no other one twice."""
+        loops, taken = list[list[Link]](), set[int]()
+        for walk in walks:
+            trail, passed = list[Link](), {self._end(walk[-1]): 0}
+            for link in walk:
+                trail.append(link)
+                first = passed.setdefault(self._end(link), len(trail))
+                if first == len(trail):
                     continue
-                for other in self.nodes.of_piece[row]:
-                    if other in on_trail:
-                        return True
-                    if other not in seen:
-                        seen.add(other)
-                        waiting.append(other)
-        return False
+                loop = trail[first:]
+                del trail[first:]
+                for inner in loop[:-1]:
+                    del passed[self._end(inner)]
+                rows = {inner.row for inner in loop}
+                if len(rows) == len(loop) and rows.isdisjoint(taken):
+                    loops.append(loop)
+                    taken |= rows
+        return loops
 
-    def _open_chains(self) -> None:
+    def _open_chains(self, rows: Sequence[int]) -> list[Chain]:
         """Chain the pieces of no closed chain, each chain from a loose end or branch to the next."""
-        loose = [chain for chain in self.chains if not chain.closed]
-        self.chains = [chain for chain in self.chains if chain.closed]
-        for chain in loose:
-            for link in chain.links:
-                self.used[link.row] = False
-        rows = [row for row in range(len(self.pieces)) if not self.used[row]]
         ends: dict[int, list[int]] = {}
         for row in rows:
             for node in self.nodes.of_piece[row]:
                 ends.setdefault(node, []).append(row)
+        chains, used = list[Chain](), set[int]()
         # start at the ends of chains; what is left after them is rings
-        ordered = sorted(ends, key=lambda node: (len(ends[node]) == 2, *self.nodes.places[node]))
-        for node in ordered:
-            for row in ends[node]:
-                if not self.used[row]:
-                    self.chains.append(self._open_from(node, row, ends))
+        for node in sorted(ends, key=lambda node: (len(ends[node]) == 2, *self.nodes.places[node])):
+            chains += [self._open_from(node, row, ends, used) for row in ends[node] if row not in used]
+        return chains
 
-    def _open_from(self, node: int, row: int, ends: dict[int, list[int]]) -> Chain:
+    def _open_from(self, node: int, row: int, ends: dict[int, list[int]], used: set[int]) -> Chain:
         links: list[Link] = []
         start = node
         while True:
-            self.used[row] = True
-            first, last = self.nodes.of_piece[row]
-            forward = first == node
-            links.append(Link(row, forward))
-            node = last if forward else first
-            further = [other for other in ends[node] if not self.used[other]]
+            used.add(row)
+            link = Link(row, self.nodes.of_piece[row][0] == node)
+            links.append(link)
+            node = self._end(link)
+            further = [other for other in ends[node] if other not in used]
             if len(ends[node]) != 2 or not further:
                 return Chain(links, node == start and len(links) > 1)
             row = further[0]

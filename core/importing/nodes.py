@@ -40,19 +40,21 @@ class Nodes:
         return len(self.pieces[node])
 
 
-class _Groups:
+class Groups:
     """Disjoint sets of numbers (union-find); the smallest number represents its set."""
 
     def __init__(self, count: int) -> None:
         self.parent = list(range(count))
 
     def root(self, number: int) -> int:
+        """Return the number that represents a number's set."""
         while self.parent[number] != number:
             self.parent[number] = self.parent[self.parent[number]]
             number = self.parent[number]
         return number
 
     def join(self, first: int, second: int) -> None:
+        """Make the sets of two numbers one."""
         first, second = self.root(first), self.root(second)
         if first != second:
             self.parent[max(first, second)] = min(first, second)
@@ -75,8 +77,8 @@ def exact_nodes(pieces: Sequence[Piece], tolerance: float) -> Nodes:
     return _numbered(ends, _same_points(ends, min(tolerance, SAME_POINT)))
 
 
-def _same_points(ends: Sequence[Point], slack: float) -> _Groups:
-    groups = _Groups(len(ends))
+def _same_points(ends: Sequence[Point], slack: float) -> Groups:
+    groups = Groups(len(ends))
     if not ends:
         return groups
     # join identical ends first: a star of lines would have millions of pairs
@@ -90,7 +92,7 @@ def _same_points(ends: Sequence[Point], slack: float) -> _Groups:
     return groups
 
 
-def _numbered(ends: Sequence[Point], groups: _Groups) -> Nodes:
+def _numbered(ends: Sequence[Point], groups: Groups) -> Nodes:
     numbers: dict[int, int] = {}
     at = [numbers.setdefault(groups.root(end), len(numbers)) for end in range(len(ends))]
     pieces: list[list[int]] = [[] for _ in numbers]
@@ -102,7 +104,7 @@ def _numbered(ends: Sequence[Point], groups: _Groups) -> Nodes:
     return Nodes(list(zip(at[::2], at[1::2], strict=True)), pieces, points)
 
 
-def _join_loose(pieces: Sequence[Piece], nodes: Nodes, groups: _Groups, tolerance: float) -> None:
+def _join_loose(pieces: Sequence[Piece], nodes: Nodes, groups: Groups, tolerance: float) -> None:
     """Join loose ends with the nearest nodes within the tolerance, nearest pairs first."""
     loose = [node for node in range(len(nodes.places)) if nodes.degree(node) == 1]
     if not loose:

@@ -199,6 +199,30 @@ def test_a_dividing_line_stays_an_open_contour() -> None:
     assert [(contour.closed, contour.drawn) for contour in contours] == [(True, 4), (False, 1)]
 
 
+def test_a_dividing_line_at_a_concave_corner_stays_an_open_contour() -> None:
+    """The line goes straight on where the outline turns into the corner."""
+    corners = [(0, 0), (40, 0), (40, 20), (20, 20), (20, 40), (0, 40), (0, 20), (0, 0)]
+    outline = [line(start, end) for start, end in itertools.pairwise(corners)]
+    contours = listed(dxf(*outline, line((20, 20), (0, 20)))).contours
+    assert [(contour.closed, contour.area) for contour in contours] == [(True, 1200.0), (False, 0.0)]
+
+
+@pytest.mark.parametrize("angle", [90, 270])
+def test_a_line_across_a_rounded_end_stays_an_open_contour(angle: float) -> None:
+    sides = [line((0, 0), (40, 0)), line((0, 12), (40, 12)), line((0, 0), (0, 12)), line((40, 0), (40, 12))]
+    contours = listed(dxf(*sides, arc((0 if angle == 90 else 40, 6), 6, angle, angle + 180))).contours
+    assert [(contour.closed, contour.drawn) for contour in contours] == [(True, 4), (False, 1)]
+    assert contours[0].area == pytest.approx(480.0 + 18.0 * math.pi)
+
+
+def test_rings_of_lines_that_touch_at_tips_are_an_outer_and_an_inner_one() -> None:
+    tips = [(10, 0), (0, 10), (-10, 0), (0, -10)]
+    star = [(10, 0), (30, 30), (0, 10), (-30, 30), (-10, 0), (-30, -30), (0, -10), (30, -30), (10, 0)]
+    rings = [*itertools.pairwise(star), *itertools.pairwise([*tips, tips[0]])]
+    contours = listed(dxf(*(line(start, end) for start, end in rings))).contours
+    assert [(str(contour.kind), contour.area) for contour in contours] == [("OUTSIDE", 1200.0), ("HOLE", 200.0)]
+
+
 def test_a_tail_of_lines_is_separated_from_its_contour() -> None:
     tail = [line((10, 10), (15, 12)), line((15, 12), (20, 10)), line((20, 10), (25, 15))]
     drawing = listed(dxf(*square(0, 0, 10), *tail))
