@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections import Counter
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field, replace
-from typing import Final, NoReturn
+from typing import Final, NamedTuple, NoReturn
 
 from core.controls.moves import Moves, Plane
 from core.finding import Finding, Severity
@@ -93,13 +93,22 @@ class Stretch:
         return tuple(parts)
 
 
+class SpindleChange(NamedTuple):
+    """The tool and the spindle speed as programmed from a row of the moves on; None if the program has named none."""
+
+    row: int = 0
+    tool: int | None = None
+    speed: float | None = None
+
+
 @dataclass(frozen=True, eq=False, slots=True)
 class ControlRun:
     """A program's run on a control.
 
     `unit` is the program's; everything else is in millimeters.  `stopped_at` is the line at which the control would
     stop with an alarm, None if it runs to the end; `moves` are those made before that.  `unplaced` are the rows whose
-    height only the machine knows.  `variables` are the common macro variables as the program leaves them.
+    height only the machine knows.  `spindle` are the changes of tool and speed, in order.  `variables` are the common
+    macro variables as the program leaves them.
     """
 
     control: str
@@ -109,12 +118,17 @@ class ControlRun:
     stopped_at: int | None = None
     stretches: tuple[Stretch, ...] = ()
     unplaced: frozenset[int] = frozenset()
+    spindle: tuple[SpindleChange, ...] = (SpindleChange(),)
     variables: Mapping[int, float] = field(default_factory=dict)
 
     @property
     def endless(self) -> bool:
         """True if the run was given up because it repeats too much to follow."""
         return any(finding.code in LIMIT_RULES for finding in self.findings)
+
+    def spindle_at(self, row: int) -> SpindleChange:
+        """Return the tool and the speed in force when the move of a row begins."""
+        return next(change for change in reversed(self.spindle) if change.row <= row)
 
     def stops_within(self, stretch: Stretch) -> bool:
         """True if the control stops within the stretch."""

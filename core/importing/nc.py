@@ -7,9 +7,8 @@ one contour at several depths, or with several radii, are one contour.
 
 from __future__ import annotations
 
-import re
 from collections.abc import Iterator, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from math import dist, pi
 from typing import Final
 
@@ -18,8 +17,7 @@ from core.controls.control_names import shown_name
 from core.controls.control_run import ControlRun, Stretch
 from core.controls.control_tools import ToolTable
 from core.controls.moves import Moves, Plane
-from core.controls.program_text import lines_of
-from core.controls.registry import UnknownControl, is_klartext, run
+from core.controls.registry import UnknownControl, run
 from core.finding import Severity
 from core.geometry.construct import even_arc
 from core.geometry.path import Path
@@ -50,14 +48,13 @@ def read_nc(
     if isinstance(result, UnknownControl):
         raise NcError(result.text)
     _refuse_alarm(result)
-    words = _Words.of(text, klartext=is_klartext(result.control))
     if result.stretches:
-        passes = [contour for stretch in result.stretches for contour in _programmed(result, stretch, words)]
+        passes = [contour for stretch in result.stretches for contour in _programmed(result, stretch)]
     elif center is None:
         message = "The program runs the tool's center: its side and the tool's diameter are needed."
         raise NcError(message, needs_center=True)
     else:
-        passes = list(_center_passes(result, center, words))
+        passes = list(_center_passes(result, center))
     if not passes:
         raise NcError("The program has no move in the XY plane at a feed.")
     return NcProgram(result.unit, tuple(_grouped(passes)), _run_notes(result))
@@ -77,45 +74,7 @@ def _run_notes(result: ControlRun) -> tuple[str, ...]:
     return tuple(f"line {finding.line}: {sentence(finding, result.unit)}" for finding in errors)
 
 
-@dataclass(frozen=True, slots=True)
-class _Words:
-    """Tool numbers and speeds, each with the line that names it."""
-
-    tools: tuple[tuple[int, float], ...]
-    speeds: tuple[tuple[int, float], ...]
-
-    @staticmethod
-    def of(text: bytes, *, klartext: bool) -> _Words:
-        lines = [_without_comments(line) for line in lines_of(text)]
-        tool = re.compile(r"TOOL\s+CALL\s+(\d+)" if klartext else r"(?<![A-Z])T\s*(\d+)(?!\s*//)", re.IGNORECASE)
-        speed = re.compile(r"(?<![A-Z])S\s*(\d+\.?\d*)", re.IGNORECASE)
-        return _Words(*(tuple(_named(lines, word)) for word in (tool, speed)))
-
-    def tool(self, line: int) -> int | None:
-        """Return the tool in use at a line."""
-        value = _last_before(self.tools, line)
-        return None if value is None else int(value)
-
-    def speed(self, line: int) -> float | None:
-        """Return the speed in use at a line."""
-        return _last_before(self.speeds, line)
-
-
-def _without_comments(line: str) -> str:
-    return re.sub(r"\([^)]*\)", " ", line).partition(";")[0]
-
-
-def _named(lines: Sequence[str], word: re.Pattern[str]) -> Iterator[tuple[int, float]]:
-    for number, line in enumerate(lines, 1):
-        for match in word.finditer(line):
-            yield number, float(match[1])
-
-
-def _last_before(values: Sequence[tuple[int, float]], line: int) -> float | None:
-    return next((value for at, value in reversed(values) if at <= line), None)
-
-
-def _programmed(result: ControlRun, stretch: Stretch, words: _Words) -> Iterator[NcContour]:
+def _programmed(result: ControlRun, stretch: Stretch) -> Iterator[NcContour]:
     """Yield the contours of a compensated stretch as programmed."""
     if stretch.plane is not Plane.XY:
         line = int(stretch.programmed.lines[-1])
@@ -124,16 +83,14 @@ def _programmed(result: ControlRun, stretch: Stretch, words: _Words) -> Iterator
         line = int(stretch.programmed.lines[stretch.changes[0].programmed])
         raise NcError(f"Line {line}: the side or the radius changes within the contour.")
     rows = stretch.programmed.part(stretch.entry, len(stretch.programmed) - stretch.exit)
-    plunge = _plunge_feed(result.moves, stretch.first)
     for cuts, notes in _contours(list(_cuts(rows)), stretch.side):
-        yield replace(_contour(cuts, stretch.side, stretch.radius, words, plunge), notes=notes)
+        yield replace(_contour(cuts, stretch.side, stretch.radius, result, stretch.first), notes=notes)
 
 
-def _contour(
-    cuts: list[Cut], side: Side | None, radius: float | None, words: _Words, plunge: float | None
-) -> NcContour:
-    first = cuts[0].line
-    return NcContour(tuple(cuts), side, radius, (cuts[0].z,), words.tool(first), words.speed(first), plunge)
+def _contour(cuts: list[Cut], side: Side | None, radius: float | None, result: ControlRun, row: int) -> NcContour:
+    """Return the contour of these cuts, whose moves start at a row."""
+    _, tool, speed = result.spindle_at(row + 1)
+    return NcContour(tuple(cuts), side, radius, (cuts[0].z,), tool, speed, _plunge_feed(result.moves, row))
 
 
 def _plunge_feed(moves: Moves, row: int) -> float | None:
@@ -207,18 +164,17 @@ def _tangent(first: Piece, second: Piece) -> bool:
     return abs(ux * vy - uy * vx) <= MAX_TANGENT_ANGLE and ux * vx + uy * vy > 0.0
 
 
-def _center_passes(result: ControlRun, center: CenterPathTool, words: _Words) -> Iterator[NcContour]:
+def _center_passes(result: ControlRun, center: CenterPathTool) -> Iterator[NcContour]:
     """Yield the contours of a program of the tool center."""
     moves, radius = result.moves, to_mm(center.diameter, result.unit) / 2.0
     for first, last in _feed_runs(moves):
-        plunge = _plunge_feed(moves, first)
         cuts = list(_cuts(moves.part(first, last)))
         if center.side is None:
-            yield _contour(cuts, None, None, words, plunge)
+            yield _contour(cuts, None, None, result, first)
             continue
         for part, notes in _contours(cuts, center.side):
             surface, needed = offset_back(part, center.side, radius)
-            contour = _contour(surface, center.side, radius, words, plunge)
+            contour = _contour(surface, center.side, radius, result, first)
             yield replace(contour, lookahead=needed, notes=notes)
 
 

@@ -70,7 +70,8 @@ def execute(
     flow.finish(alarmed=stopped_at is not None)
     unit = machine.first_unit or machine.unit
     tape, stretches = control.tape, tuple(control.stretches)
-    run = ControlRun(name, unit, tape.moves(), log.closed(), stopped_at, stretches, frozenset(tape.unplaced))
+    spindle = tuple(machine.spindle)
+    run = ControlRun(name, unit, tape.moves(), log.closed(), stopped_at, stretches, frozenset(tape.unplaced), spindle)
     return _by_main_lines(run, flow)
 
 

@@ -11,7 +11,7 @@ from typing import Final
 
 from core.controls.compensation.elements import arc_element, element_sweep, line_element
 from core.controls.compensation.recorder import Recorder
-from core.controls.control_run import Log
+from core.controls.control_run import Log, SpindleChange
 from core.controls.control_tools import ToolTable, missing_tool
 from core.controls.iso import cycles
 from core.controls.iso.arcs import IN_PLANE, NoArc, center_by_radius, given_center
@@ -110,6 +110,7 @@ class Machine(ModalState):
     def __init__(self, dialect: Dialect, control: Control, tools: ToolTable, log: Log) -> None:
         super().__init__(dialect, tools, log)
         self.control, self.side_on = control, False
+        self.spindle = [SpindleChange()]
         control.machine, control.unit = self, self.unit
 
     def step(self, block: Block) -> None:
@@ -161,6 +162,7 @@ class Machine(ModalState):
             self.feed = block.words["F"] * self.scale
         self.take_spindle(block)
         self._take_tool(block)
+        self._note_spindle()
         self._warn_of_axes(block)
         non_modal = None
         for code in codes:
@@ -288,6 +290,12 @@ class Machine(ModalState):
         if self.control.active and self.side_on and 400 not in block.g and self.tool != before:
             text = f"Tool {self.tool} is loaded, and compensation goes on with the radius in force. Write G40 first."
             self.log.tell(Severity.WARNING, "OFFSET", text, block.line, block.column("TM"))
+
+    def _note_spindle(self) -> None:
+        """Note the tool and the speed in force, if one has changed; without an M6, the tool is that of the T."""
+        change = SpindleChange(len(self.control.tape), self.tool or self.next_tool or None, self.speed or None)
+        if change[1:] != self.spindle[-1][1:]:
+            self.spindle.append(change)
 
     def _warn_of_axes(self, block: Block) -> None:
         for letter in _OTHER_AXES:

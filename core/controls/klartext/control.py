@@ -66,7 +66,8 @@ def run_klartext(text: bytes, tools: ToolTable, share: float = 1.0, progress: Pr
         center.record.close()  # what is recorded so far stays
     tape, stretches = center.record.tape, tuple(center.record.stretches)
     unplaced = frozenset(tape.unplaced)
-    return ControlRun("klartext", state.unit, tape.moves(), log.closed(), stopped_at, stretches, unplaced)
+    spindle = tuple(state.spindle)
+    return ControlRun("klartext", state.unit, tape.moves(), log.closed(), stopped_at, stretches, unplaced, spindle)
 
 
 def _run_blocks(state: State, progress: Progress) -> None:

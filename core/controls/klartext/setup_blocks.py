@@ -143,6 +143,9 @@ def _define(state: State, block: Block, name: str, words: Words) -> None:
 def _call(state: State, block: Block, name: str, words: Words) -> None:
     if "F" in words:
         state.feed = state.tool_feed = state.length(block, words, "F")
+    if "S" in words:
+        state.speed = state.number(block, words, "S")
+        state.note_spindle()
     if not name and not words.keys() & ({"DR"} | _PLANE_OF_TOOL_AXIS.keys()):
         return
     if state.applied and not state.side:
@@ -161,6 +164,7 @@ def _call(state: State, block: Block, name: str, words: Words) -> None:
     if axes and _PLANE_OF_TOOL_AXIS[axes[0]] is not state.plane:
         state.plane, state.pole = _PLANE_OF_TOOL_AXIS[axes[0]], None
     state.tool = name or state.tool
+    state.note_spindle()
     state.last = None
     delta = state.length(block, words, "DR") if "DR" in words else 0.0
     _take_radius(state, block, delta)

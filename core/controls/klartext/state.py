@@ -12,7 +12,7 @@ from types import MappingProxyType
 from typing import Final, NoReturn
 
 from core.controls.compensation.elements import Element
-from core.controls.control_run import Log
+from core.controls.control_run import Log, SpindleChange
 from core.controls.control_tools import ToolTable
 from core.controls.klartext.center_path import FeedAt, ProgrammedStep, Role
 from core.controls.klartext.corner_rounding import CornerBuffer
@@ -86,6 +86,8 @@ class State:
     plane: Plane = Plane.XY
     defined: dict[str, float] = field(default_factory=dict)
     tool: str = ""
+    speed: float | None = None
+    spindle: list[SpindleChange] = field(default_factory=lambda: [SpindleChange()])
     radius: float | None = None
     feed_at: FeedAt = FeedAt.CENTER
     side: int = 0
@@ -94,6 +96,11 @@ class State:
     ahead: int = 0
     reported_cycles: set[int] = field(default_factory=set)
     last: Element | None = None
+
+    def note_spindle(self) -> None:
+        """Note the tool, if it has a number, and the speed in force."""
+        tool = int(self.tool) if self.tool.isdecimal() else None
+        self.spindle.append(SpindleChange(len(self.waiting.center.record.tape), tool, self.speed))
 
     def stop(self, code: str, text: str, block: Block, name: str = "", *lengths: float) -> NoReturn:
         """Stop the control at a word of the block, or at its head."""

@@ -180,6 +180,20 @@ def test_an_imported_contour_adds_its_tool() -> None:
     assert [tool.diameter for tool in part.tools if tool.number == 7] == [Number(6.0)]
 
 
+def test_a_tool_selected_for_the_next_change_is_not_the_contours_tool() -> None:
+    moves = b"S900 M3\nG0 X-9 Y-9\nT7\nG1 G41 D1 X0 Y0 F200\nX20 Y0\nX20 Y20\nX0 Y0\nG40 X-9 Y-9\nM30\n"
+    tools = ToolTable.of(CutterTool(1, 4.0), CutterTool(7, 6.0))
+    (contour,) = read_nc(b"G21 G90 G17\nT1 M6\n" + moves, "linuxcnc", tools).contours
+    assert (contour.tool, contour.speed) == (1, 900.0)
+
+
+def test_the_tool_and_speed_of_a_klartext_contour_are_those_of_its_tool_call() -> None:
+    moves = b"L X-9 Y-9 R0 FMAX\nL X+0 Y+0 RL F200\nL X+20\nL Y+20\nL X+0 Y+0\nL X-9 Y-9 R0\nEND PGM A MM\n"
+    calls = b"BEGIN PGM A MM\nTOOL DEF 3 L+0 R+2\nTOOL CALL 3 Z S1800\nTOOL CALL S2500\n"
+    (contour,) = read_nc(calls + moves, "klartext", ToolTable()).contours
+    assert (contour.tool, contour.speed) == (3, 2500.0)
+
+
 def test_a_center_path_needs_side_and_diameter() -> None:
     text = SQUARE % (b"G1 X0 Y0", b"")
     with pytest.raises(NcError, match="its side and the tool's diameter are needed"):
