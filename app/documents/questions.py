@@ -12,7 +12,7 @@ from pathlib import Path
 from typing import Final
 
 from app.documents import times
-from app.documents.document import Document
+from app.documents.document import ContourDocument, Document
 from app.documents.journal import Journal, Kind
 from app.documents.left_overs import UNNAMED_PROGRAM, Unreadable
 from app.documents.lock import Owner
@@ -120,13 +120,16 @@ def leaving(title: str, documents: Sequence[Document], half_typed: str = "") -> 
     unsaved = [document for document in documents if document.unsaved]
     if not unsaved and not half_typed:
         return None
-    lines = tuple(
-        f"{name_of(document)} {'was never saved' if document.file.path is None else 'has changes that are not saved'}."
-        for document in unsaved
-    )
-    lines += (half_typed,) if half_typed else ()
+    lines = tuple(map(_unsaved_sentence, unsaved)) + ((half_typed,) if half_typed else ())
     answers = (Answer(DISCARD, "the changes are lost"), Answer(SAVE, "then go on"))
     return Ask(title, lines, answers)
+
+
+def _unsaved_sentence(document: Document) -> str:
+    if document.file.path is not None:
+        return f"{name_of(document)} has changes that are not saved."
+    title = document.title if isinstance(document, ContourDocument) else ""
+    return f"{title or name_of(document)} was never saved."
 
 
 def not_answering() -> Ask:

@@ -211,12 +211,10 @@ class FormScreen(BaseScreen):
 
     @on(ChoiceField.Unknown)
     def _no_choice(self, event: ChoiceField.Unknown) -> None:
-        self._refuse_choice(event.name, event.typed)
+        self._refuse_choice(event.typed)
 
-    def _refuse_choice(self, name: str, typed: str) -> None:
-        field = self._field(name)
-        what = "" if field is None else f" of {field.label}"
-        self.say(f"{printable(typed)} is no choice{what}: left and right change it.", Tone.ERROR)
+    def _refuse_choice(self, typed: str) -> None:
+        self.say(f"{printable(typed)} is not a choice. Left and right change it.", Tone.ERROR)
 
     # ---- keys
 
@@ -231,7 +229,7 @@ class FormScreen(BaseScreen):
         """Take the field and go on; stay once on a choice if what was typed there is no choice."""
         widget = self.current
         if isinstance(widget, ChoiceField) and widget.refused:
-            self._refuse_choice(widget.name or "", widget.refused)
+            self._refuse_choice(widget.refused)
             widget.refused = ""
         else:
             self.action_accept()

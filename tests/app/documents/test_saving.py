@@ -344,6 +344,9 @@ def test_leaving_asks_only_when_work_would_be_lost(state: Path, file: Path) -> N
     question = questions.leaving("QUIT?", [operator.document, unnamed])
     assert question is not None
     assert question.lines == (f"{file.name} has changes that are not saved.", "This program was never saved.")
+    example = questions.leaving("QUIT?", [replace(unnamed, title="pocket")])
+    assert example is not None
+    assert example.lines == ("pocket was never saved.",)
     assert [answer.word for answer in question.answers] == ["DISCARD", "SAVE"]
     assert question.safe == "GO BACK"
 
