@@ -27,6 +27,7 @@ class Finding:
 
     `code` is a stable word such as GOUGE, or a control's rule id.  `segment` is a programmed number k
     or k + 1/2 for the corner arc after it; `field` a field's name in `core.program.fields`.
+    `last_segment` is where the finding ends if it runs over several segments in the contour's order.
     `at` (x, y) and `value` are millimeters, `lengths` further millimeters that the text uses.
     `line` and `column` count from 1 in an imported program.  `area` is in square millimeters.
     `block` counts from 1 if the findings of several blocks are listed together.
@@ -44,3 +45,4 @@ class Finding:
     column: int | None = None
     area: float | None = None
     block: int | None = None
+    last_segment: float | None = None

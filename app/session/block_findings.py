@@ -72,12 +72,22 @@ def block_findings(block: DerivedBlock, table: Table | None, unit: Unit) -> tupl
 
 def _entry(finding: Finding, unit: Unit) -> Entry:
     segment = None if finding.segment is None else int(finding.segment)
-    where = segment_name(finding.segment) if finding.segment else "START" if segment == 0 else ""
+    where = _where(finding)
     title = _title(finding, unit)
     area, field = finding.area or 0.0, finding.field
     if finding.code in MENDED_ON_START:
         segment, field = 0, MENDED_ON_START[finding.code]
     return Entry(_kind(finding), title, where, sentence(finding, unit), finding.at, segment, field, area)
+
+
+def _where(finding: Finding) -> str:
+    """Return `segment 8-10` for a finding that runs over several segments, else its segment, corner or START."""
+    first, last = finding.segment, finding.last_segment
+    if first is None:
+        return ""
+    if last is not None and int(last) != int(first):
+        return f"segment {int(first)}-{int(last)}"
+    return segment_name(first) if first else "START"
 
 
 def remedy(table: Table | None, field: str, unit: Unit) -> str:

@@ -220,7 +220,7 @@ def _corners(corners: Sequence[Uncut]) -> Finding:
 
 
 def _uncut(uncut: Uncut, surface: Path) -> Finding:
-    """Return the finding on an uncut stretch: its segment is where it begins, `lengths` holds the largest thickness.
+    """Return the finding on an uncut stretch, from its first segment to its last; `lengths` holds its thickness.
 
     Without a path there is no thickness.
     """
@@ -239,6 +239,7 @@ def _uncut(uncut: Uncut, surface: Path) -> Finding:
         value=uncut.length,
         lengths=() if isinf(uncut.thickness) else (uncut.thickness, LAST_INCH_DIGIT),
         area=uncut.area,
+        last_segment=uncut.last_number,
     )
 
 

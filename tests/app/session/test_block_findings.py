@@ -33,7 +33,7 @@ def test_gouges_come_first_and_uncut_stock_is_sorted_by_area(pocket):
 
 def test_the_first_finding_of_the_pocket_is_its_largest_uncut_area(pocket):
     first = block_findings(pocket, None, Unit.IN)[0]
-    assert first.title == "UNCUT 0.3624 thick"
+    assert (first.title, first.where, first.segment) == ("UNCUT 0.3624 thick", "segment 8-10", 8)
     assert first.at is not None
 
 

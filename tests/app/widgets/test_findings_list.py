@@ -10,4 +10,4 @@ async def test_the_second_line_of_a_finding_continues_its_title():
     async with operator(size=(132, 43)) as user:
         findings = user.screen.query_one(FindingsList)
         first = str(findings.get_option_at_index(0).prompt).split("\n")
-        assert first == ["▲ 1 UNCUT 0.3624 thick  segment 8", "    1.2296 long, segments 8-10 at X 0.2500 Y 3.5000."]
+        assert first == ["▲ 1 UNCUT 0.3624 thick  segment 8-10", "    1.2296 long, segments 8-10 at X 0.2500 Y 3.5000."]
