@@ -82,8 +82,8 @@ class ProofScreen(BaseScreen):
     BINDINGS: ClassVar[list[BindingType]] = [
         Binding("enter", "edit", "Edit", show=False),
         Binding("escape", "leave", "Back", show=False),
-        Binding("n,N,ctrl+n", "finding(1)", "Next finding", show=False),
-        Binding("p,P,ctrl+p", "finding(-1)", "Finding before", show=False),
+        Binding("n,N", "finding(1)", "Next finding", show=False),
+        Binding("p,P", "finding(-1)", "Finding before", show=False),
         Binding("c,C", "control", "Choose control", show=False),
         Binding("t,T", "tool", "Tool diameter", show=False),
         Binding("v,V", "compare", "Compare controls", show=False),
@@ -106,7 +106,12 @@ class ProofScreen(BaseScreen):
         Softkey("DRAW", "large", "DRAW"),
         Softkey("BACK", "close", "BACK"),
     )
-    MORE_KEYS: ClassVar[tuple[tuple[str, str], ...]] = (("^S", "SAVE"), ("^K", "ALL ACTIONS"), ("?", "KEYS, HELP"))
+    MORE_KEYS: ClassVar[tuple[tuple[str, str], ...]] = (
+        ("F10", "FINDINGS"),
+        ("^S", "SAVE"),
+        ("^K", "ALL ACTIONS"),
+        ("?", "KEYS, HELP"),
+    )
 
     def __init__(
         self,
@@ -521,6 +526,11 @@ class ProofScreen(BaseScreen):
     @on(OptionList.OptionSelected, "#proof-findings")
     def _finding_selected(self) -> None:
         self.query_one(Listing).focus()
+
+    def action_panel(self, name: str) -> None:
+        """Move the cursor to the findings and back; an NC text has no segments."""
+        if name == "findings":
+            self.action_other_panel()
 
     def action_other_panel(self) -> None:
         """Move the cursor to the findings, or back to the listing."""

@@ -55,6 +55,10 @@ HEIGHT_CLASSES: Final = [(0, "-short"), (28, "-tall")]
 """The style class of a screen from each number of columns, or of lines, upward."""
 
 
+NO_LIST_KEYS: Final = (("^K", "ALL ACTIONS"), ("?", "KEYS, HELP"))
+"""The keys under the softkeys of a screen that is not of a block."""
+
+
 class BaseScreen(Screen[None]):
     """A screen in the common frame; `session` follows the App's while the screen is in view."""
 
@@ -65,10 +69,19 @@ class BaseScreen(Screen[None]):
     BINDINGS: ClassVar[list[BindingType]] = [
         Binding("question_mark", "question_mark", "Help", show=False, priority=True),
         *(Binding(f"f{number},alt+{number}", f"softkey({number})", f"F{number}", show=False) for number in range(1, 9)),
+        Binding("f9,ctrl+t", "panel('segments')", "Segments", show=False),
+        Binding("f10,ctrl+f", "panel('findings')", "Findings", show=False),
+        Binding("ctrl+n", "finding(1)", "Next finding", show=False),
+        Binding("ctrl+p", "finding(-1)", "Finding before", show=False),
     ]
     SOFTKEYS: ClassVar[tuple[Softkey | None, ...]] = (None,) * 8
-    MORE_KEYS: ClassVar[tuple[tuple[str, str], ...]] = (("^K", "ALL ACTIONS"), ("?", "KEYS, HELP"))
-    """Further keys, listed under the softkeys."""
+    MORE_KEYS: ClassVar[tuple[tuple[str, str], ...]] = (
+        ("F9", "SEGMENTS"),
+        ("F10", "FINDINGS"),
+        ("^K", "ALL ACTIONS"),
+        ("?", "KEYS, HELP"),
+    )
+    """Further keys, listed under the softkeys; the keys of lists and findings act only where F10 is one of them."""
     SHOWS_NC_TEXT: ClassVar[bool] = False
     """Whether this is the screen NC PROOF."""
 
@@ -132,6 +145,19 @@ class BaseScreen(Screen[None]):
             widget.insert_text_at_cursor("?")
         else:
             self.app.call_later(self.app.run_action, "app.help")
+
+    def check_action(self, action: str, parameters: tuple[object, ...]) -> bool | None:
+        """Block the keys of lists and findings where the softkeys do not list them: the screen is not of a block."""
+        has_lists = any(key == "F10" for key, _ in self.MORE_KEYS)
+        return (has_lists or action not in ("panel", "finding")) and super().check_action(action, parameters)
+
+    def action_panel(self, name: str) -> None:
+        """Go to the list of segments or of findings on MILL CONTOUR."""
+        self.host.show_panel(name)
+
+    def action_finding(self, by: int) -> None:
+        """Show the next or previous finding on MILL CONTOUR."""
+        self.host.show_finding(by)
 
     def help_lines(self) -> tuple[str, ...]:
         """Return sentences about this screen, for HELP."""

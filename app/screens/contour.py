@@ -88,9 +88,10 @@ PANELS: Final = ("segments", "findings")
 
 
 LIST_PROMPTS: Final = {
-    "segments": "Up and down choose a segment. Enter edits it, Del deletes it, Ins inserts one before it. F9 closes.",
-    "findings": "Up and down show the places of the findings. Enter goes to the field to be corrected. F10 closes.",
+    "segments": "Up and down choose a segment. Enter edits it, Del deletes it, Ins inserts one before it. F9",
+    "findings": "Up and down show the places of the findings. Enter goes to the field to be corrected. F10",
 }
+"""What the keys of each list do, up to what its own key does."""
 
 
 class SegmentField(NumberField):
@@ -112,10 +113,6 @@ class ContourScreen(FormScreen):
         Binding("ctrl+home", "go(0)", "START", show=False),
         Binding("ctrl+end", "go(-1)", "Last segment", show=False),
         Binding("space", "list_field", "List of this field", show=False, priority=True),
-        Binding("f9,ctrl+t", "panel('segments')", "Segments", show=False),
-        Binding("f10,ctrl+f", "panel('findings')", "Findings", show=False),
-        Binding("ctrl+n", "finding(1)", "Next finding", show=False),
-        Binding("ctrl+p", "finding(-1)", "Finding before", show=False),
     ]
     SOFTKEYS: ClassVar[tuple[Softkey | None, ...]] = (
         Softkey(
@@ -310,13 +307,16 @@ class ContourScreen(FormScreen):
         self.query_one(Picture).show(shown, placed, in_hand, self.host.characters)
 
     def action_finding(self, by: int) -> None:
-        """Move the loupe to the next or previous finding."""
+        """Move the loupe to the next or previous finding; on START it is on the first one at the beginning."""
+        first = None if self.on_segment else 0
+        self.step_finding(by, first if self.in_hand is None else self.in_hand)
+
+    def step_finding(self, by: int, here: int | None) -> None:
+        """Move the loupe to the finding after or before `here`, or to the first or last one if that is None."""
         placed = self.placed
         if not placed:
             self.say("There are no findings.")
             return
-        first = 0 if not self.current_session.place.segment else None
-        here = self.in_hand if self.in_hand is not None else first
         self.in_hand = (0 if by > 0 else len(placed) - 1) if here is None else (here + by) % len(placed)
         self._show_picture(self.host.shown)
         self.query_one(FindingsList).highlighted = self.entries.index(placed[self.in_hand])
@@ -338,9 +338,23 @@ class ContourScreen(FormScreen):
 
     # ---- panels
 
+    def open_panel(self, name: str) -> None:
+        """Move the cursor into a list, even if it is open already."""
+        self._close_panels()
+        self.action_panel(name)
+
+    def _close_panels(self) -> None:
+        self.remove_class("-full", *(f"-{panel}" for panel in PANELS))
+
+    @property
+    def is_small(self) -> bool:
+        """True if a list and the form have room for a few rows each only."""
+        return self.has_class("-narrow") or self.has_class("-native")
+
     def action_panel(self, name: str) -> None:
         """Move the cursor into a list, which replaces the drawing unless there is room for both, or close the list.
 
+        On small screens, the key of the findings first gives them the place of the form too.
         After the list the cursor returns to the field where it was.
         """
         if not self.take():
@@ -348,11 +362,16 @@ class ContourScreen(FormScreen):
         self.quiet()
         if self.current is not None:
             self._left_field = (self.current_session.place, self.current.name or SEGMENT_FIELD)
-        is_open = self.has_class(f"-{name}")
+        is_open, target = self.has_class(f"-{name}"), self.query_one(f"#{name}", Widget)
+        if is_open and name == "findings" and self.is_small and not self.has_class("-full"):
+            self.add_class("-full")
+            self.set_focus(target)
+            self.refresh_frame()
+            return
         for panel in PANELS:
             self.set_class(panel == name and not is_open, f"-{panel}")
-        target = self.query_one(f"#{name}")
-        if is_open or not isinstance(target, Widget):
+        self.remove_class("-full")
+        if is_open:
             self._focus_left_field()
         else:
             self._show_lists(self.host.shown)
@@ -366,8 +385,7 @@ class ContourScreen(FormScreen):
     def action_restore(self) -> None:
         """Restore the old value; from a list, go back to the form and the drawing."""
         if not self.half_typed:
-            for panel in PANELS:
-                self.remove_class(f"-{panel}")
+            self._close_panels()
             if self.current is None:
                 # the next digit is typed into the field and does not press a softkey
                 self.quiet()
@@ -419,6 +437,8 @@ class ContourScreen(FormScreen):
 
     def focus_field(self, name: str) -> None:
         """Put the cursor on a field, or on SEGMENT if the field belongs to another form, as a finding's may."""
+        # the form comes back if the findings had its place
+        self.remove_class("-full")
         super().focus_field(SEGMENT_FIELD if name and self.widget(name) is None else name)
 
     def value(self, name: str) -> Value | str:
@@ -499,7 +519,8 @@ class ContourScreen(FormScreen):
     def prompt_text(self) -> Sentence:
         """Return a list's keys, the prompt of SEGMENT, an empty LINE's other kinds, or the field's prompt."""
         if self.focused is not None and self.focused.id in LIST_PROMPTS:
-            return Sentence(LIST_PROMPTS[self.focused.id])
+            grows = self.focused.id == "findings" and self.is_small and not self.has_class("-full")
+            return Sentence(f"{LIST_PROMPTS[self.focused.id]} {'makes it taller' if grows else 'closes'}.")
         segment, field = self.current_session.segment, self.current_field
         if isinstance(segment, LineSegment) and is_empty(segment) and field is not None and field.name == "x_end":
             widget = self.current

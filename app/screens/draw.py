@@ -150,6 +150,14 @@ class DrawScreen(BaseScreen):
         here = self.at if self.at is not None else -1 if by > 0 else 0
         self._take((here + by) % len(self.entries))
 
+    def action_panel(self, name: str) -> None:
+        """Move the cursor between the drawing and the findings if they are in view; else go to MILL CONTOUR."""
+        findings = self.query_one(FindingsList)
+        if name == "findings" and findings.display:
+            (self.drawing if findings.has_focus else findings).focus()
+        else:
+            super().action_panel(name)
+
     def _take(self, number: int) -> None:
         self.at = number
         entry = self.entries[number]

@@ -11,7 +11,7 @@ from textual.binding import Binding, BindingType
 from textual.containers import Horizontal, Vertical
 from textual.widgets import Input
 
-from app.screens.base import BaseScreen
+from app.screens.base import NO_LIST_KEYS, BaseScreen
 from app.session.messages import Tone
 from app.widgets.field import LineInput
 from app.widgets.plain import PlainLabel
@@ -27,6 +27,7 @@ class EntryScreen(BaseScreen):
     BINDINGS: ClassVar[list[BindingType]] = [Binding("escape", "app.back", "Back", show=False)]
     TITLE: ClassVar[str] = ""
     LABEL: ClassVar[str] = "FILE"
+    MORE_KEYS: ClassVar[tuple[tuple[str, str], ...]] = NO_LIST_KEYS
 
     def __init__(self, text: str = "") -> None:
         super().__init__()

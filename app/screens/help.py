@@ -13,7 +13,7 @@ from textual.containers import Horizontal, VerticalScroll
 from textual.content import Content
 from textual.widgets import Static
 
-from app.screens.base import BaseScreen
+from app.screens.base import NO_LIST_KEYS, BaseScreen
 from app.screens.topics import topic_of
 from app.session.messages import Sentence
 from app.widgets.plain import PlainLabel, PlainText
@@ -57,7 +57,7 @@ EXPLAINED_KEYS: Final[tuple[tuple[str, str], ...]] = (
     ("Ctrl+Home, Ctrl+End", "START, the last segment"),
     ("F1 to F8", "the softkeys; also Esc, then the digit within 2 seconds"),
     ("F9 or Ctrl+T", "the list of segments"),
-    ("F10 or Ctrl+F", "the list of findings"),
+    ("F10 or Ctrl+F", "the list of findings; again: taller"),
     ("Ctrl+N, Ctrl+P", "next finding, finding before"),
     ("Ctrl+K", "every action by its name; a digit is a softkey"),
     ("Ctrl+Z, Ctrl+Y", "undo, redo"),
@@ -80,6 +80,7 @@ class HelpScreen(BaseScreen):
         Binding("space", "page_down", "Next page", show=False),
     ]
     SOFTKEYS: ClassVar[tuple[Softkey | None, ...]] = (*(None,) * 7, Softkey("BACK", "app.back", "BACK"))
+    MORE_KEYS: ClassVar[tuple[tuple[str, str], ...]] = NO_LIST_KEYS
 
     def __init__(self, field: Field | None = None, lines: Sequence[str] = ()) -> None:
         super().__init__()

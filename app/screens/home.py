@@ -27,7 +27,7 @@ from app.documents.survey import (
     facts_of,
     programs_of,
 )
-from app.screens.base import BaseScreen
+from app.screens.base import NO_LIST_KEYS, BaseScreen
 from app.session.messages import Sentence, Tone
 from app.session.words import counted, length
 from app.widgets.drawing import Drawable, Drawing
@@ -60,6 +60,7 @@ class HomeScreen(BaseScreen):
         Softkey("GUIDED FIRST PART", "app.guide", "GUIDE"),
         Softkey("QUIT", "app.quit", "QUIT"),
     )
+    MORE_KEYS: ClassVar[tuple[tuple[str, str], ...]] = NO_LIST_KEYS
 
     def __init__(self, folder: Path, at: Path | None = None) -> None:
         super().__init__()

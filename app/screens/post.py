@@ -13,6 +13,7 @@ from textual.containers import Horizontal
 from textual.content import Content
 from textual.widgets import Input, OptionList, Static
 
+from app.screens.base import BaseScreen
 from app.screens.dialogs import Phrase
 from app.screens.entry_screen import EntryScreen
 from app.session.guide import POST_NAME, WHOLE_WAY
@@ -52,6 +53,7 @@ class PostScreen(EntryScreen):
         None,
         Softkey("BACK to program", "app.back", "BACK"),
     )
+    MORE_KEYS: ClassVar[tuple[tuple[str, str], ...]] = BaseScreen.MORE_KEYS
 
     def __init__(self, text: str = "") -> None:
         super().__init__(text)

@@ -52,7 +52,12 @@ class ProgramScreen(BaseScreen):
         Softkey("DRAW", "app.draw", "DRAW"),
         Softkey("BACK to files", "app.home", "BACK"),
     )
-    MORE_KEYS: ClassVar[tuple[tuple[str, str], ...]] = (("^S", "SAVE"), ("^K", "ALL ACTIONS"), ("?", "KEYS, HELP"))
+    MORE_KEYS: ClassVar[tuple[tuple[str, str], ...]] = (
+        ("F9", "SEGMENTS"),
+        ("F10", "FINDINGS"),
+        ("^S", "SAVE"),
+        ("?", "KEYS, HELP"),
+    )
 
     def __init__(self) -> None:
         super().__init__()

@@ -116,10 +116,10 @@ async def test_a_choice_of_two_words_is_typed_with_its_space():
 async def test_enter_after_text_that_is_no_choice_stays_once_and_names_all_of_it():
     async with operator() as user:
         await user.press("tab", "tab", "'33")
-        assert user.prompt == "33 is no choice of CUTTER COMP.: left and right change it."
+        assert user.prompt == "33 is not a choice. Left and right change it."
         await user.press("enter")
         assert (user.at, user.value("cutter_comp")) == ("cutter_comp", "LEFT")
-        assert user.prompt == "33 is no choice of CUTTER COMP.: left and right change it."
+        assert user.prompt == "33 is not a choice. Left and right change it."
         await user.press("enter")
         assert user.at == "x_start"
         await user.press("up", "up", "'-.5", "right", "enter")
@@ -137,7 +137,7 @@ async def test_a_choice_can_be_typed_stepped_or_listed():
         await user.press("space", "up", "enter")
         assert str(user.session.block.cutter_comp) == "LEFT"
         await user.press("q")
-        assert user.prompt == "Q is no choice of CUTTER COMP.: left and right change it."
+        assert user.prompt == "Q is not a choice. Left and right change it."
 
 
 async def test_a_new_block_keeps_tool_feeds_and_depths():
@@ -199,9 +199,11 @@ async def test_closing_a_list_returns_the_cursor_to_its_field():
         await user.press(*["down"] * 3)
         field = user.at
         for key in ("f9", "f10"):
-            for close in (key, "escape"):
+            # the key of the findings first makes their list taller
+            again = (key,) if key == "f9" else (key, key)
+            for close in (again, ("escape",)):
                 await user.press(key)
-                await user.press(close)
+                await user.press(*close)
                 assert user.at == field, (key, close)
                 await user.press("3")
                 assert isinstance(user.screen, ContourScreen)

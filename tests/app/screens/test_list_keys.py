@@ -1,0 +1,107 @@
+"""F9, F10, Ctrl+N and Ctrl+P lead to segments and findings from every screen of a block."""
+
+from __future__ import annotations
+
+from textual.widget import Widget
+from textual.widgets import OptionList
+
+from app.screens.contour import ContourScreen
+from app.screens.draw import DrawScreen
+from app.screens.home import HomeScreen
+from app.screens.post import PostScreen
+from app.widgets.drawing import Drawing
+from core.program.model import Number
+from tests.app.widget_pilot import Operator, operator
+
+
+async def run(user: Operator, action: str) -> None:
+    """Run an action; drawings and advice are not waited for."""
+    user.patience = 0.0
+    await user.app.run_action(action)
+    await user.settle()
+
+
+def focused(user: Operator) -> str | None:
+    return None if user.app.focused is None else user.app.focused.id
+
+
+async def test_the_list_keys_lead_from_every_screen_to_the_lists():
+    names = ("program", "lookahead", "draw", "parameters", "part_setup", "tools", "post")
+    keys = (("f9", "segments"), ("f10", "findings"), ("ctrl+t", "segments"), ("ctrl+f", "findings"))
+    async with operator() as user:
+        for name, (key, panel) in zip(names, (*keys, *keys), strict=False):
+            await run(user, f"app.{name}")
+            assert not isinstance(user.screen, ContourScreen)
+            await user.press(key)
+            assert isinstance(user.screen, ContourScreen), (name, key)
+            assert focused(user) == panel, (name, key)
+            assert user.screen.query_one(f"#{panel}", Widget).display
+
+
+async def test_next_and_previous_finding_lead_from_other_screens_to_the_loupe():
+    async with operator() as user:
+        for name, key, number in (("program", "ctrl+n", "1/3"), ("tools", "ctrl+p", "3/3")):
+            user.app.move(user.session.place)
+            await run(user, f"app.{name}")
+            await user.press(key)
+            assert isinstance(user.screen, ContourScreen), (name, key)
+            assert number in user.screen.query_one("#loupe", Drawing).heading, (name, key)
+
+
+async def test_draw_steps_through_its_own_findings_and_f10_goes_to_its_list_where_there_is_room():
+    async with operator(size=(132, 43)) as user:
+        await run(user, "app.draw")
+        screen = user.screen
+        assert isinstance(screen, DrawScreen)
+        await user.press("ctrl+n", "ctrl+n")
+        assert "2/3" in screen.drawing.heading
+        await user.press("ctrl+p")
+        assert "1/3" in screen.drawing.heading
+        await user.press("f10")
+        assert focused(user) == "draw-findings"
+        await user.press("f10")
+        assert focused(user) == "full-drawing"
+
+
+async def test_a_half_typed_number_is_taken_before_the_lists_open():
+    async with operator() as user:
+        await run(user, "app.tools")
+        await user.press("tab", "tab", "'.3", "f10")
+        assert focused(user) == "findings"
+        assert user.session.program.tools[0].diameter == Number(0.3)
+        await run(user, "app.tools")
+        await user.press("tab", "tab", "'1a5", "f10")
+        assert not isinstance(user.screen, ContourScreen), "the text cannot be read"
+
+
+async def test_the_files_have_neither_segments_nor_findings():
+    async with operator() as user:
+        await run(user, "app.home")
+        await user.press("f9", "f10", "ctrl+n")
+        assert isinstance(user.screen, HomeScreen)
+
+
+async def test_f10_on_post_leads_to_what_must_be_corrected():
+    async with operator("notch") as user:
+        await run(user, "app.post")
+        assert isinstance(user.screen, PostScreen)
+        await user.press("f10", "enter")
+        assert isinstance(user.screen, ContourScreen)
+
+
+async def test_f10_again_gives_the_findings_the_whole_height_and_closes_them_then():
+    async with operator() as user:
+        await user.press("f10")
+        findings = user.screen.query_one("#findings", OptionList)
+        assert findings.size.height == 8
+        assert user.prompt.endswith("F10 makes it taller.")
+        await user.press("f10")
+        assert findings.size.height == 18
+        assert user.prompt.endswith("F10 closes.")
+        await user.press("tab")
+        assert user.at == "segment"
+        assert user.screen.query_one("#fields", Widget).display
+        assert findings.size.height == 8
+        await user.press("f10", "f10")
+        assert not findings.display
+        assert user.at == "segment"
