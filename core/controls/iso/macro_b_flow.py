@@ -724,8 +724,7 @@ def arguments_of(block: Block) -> dict[int, float]:
         if letter in "IJK":
             number += 3 * seen.get(letter, 0)
             seen[letter] = seen.get(letter, 0) + 1
-        if number <= 33:
-            arguments[number] = float(value)
+        arguments[number] = float(value)
     return arguments
 
 

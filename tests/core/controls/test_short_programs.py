@@ -59,6 +59,10 @@ FANUC = {
     "G91 G68 X0 Y0 R30.": "FN-ROTATION 2:5 cutcomp takes R of G68 as an angle from 0.",
     "G51 X0 P9": "BEYOND 2:8 P of G51 without a decimal point counts thousandths: here it is a factor of 0.009.",
     "G10 L20 X1.": "PS0031 2:1 G10 needs P",
+    f"G65 P2 {' '.join(['I1.'] * 11)}\nM30\nO2\nX#34\nM99": "PS0115 5:2 #34 is not a variable",
+    "G41 D0 G1 X9.\nX20.": "FN-D0 2:1 Nothing is compensated",
+    "G41 D1 G1 X9.\nX20.\nY3.\nX0\nY20.": "PS0041 4:1 The tool does not fit along this move",
+    "G41 D1 G1 X9.\nX20.\nG3 X22. Y2. R2.": "PS0041 4:1 The arc radius {0} is smaller than the cutter radius {1}.",
     "G54 P2 X1.": "OFFSET 2:1 The offset of G54.1 P2 is not in the program",
     "G54 P2 G80 X1.": "OFFSET 2:1 The offset of G54.1 P2 is not in the program",
     "G28 P2 X1.": "UNUSED 2:5 No code in this block uses P.",
@@ -253,6 +257,11 @@ def test_each_letter_of_g65_sets_its_variable() -> None:
 
 
 OTHER_ENDS = {
+    ("fanuc:a", "G41 D1 G1 X9.\nX20.\nG40\nZ5."): (20.0, 2.5),
+    ("fanuc:a", "G41 D1 G1 X9.\nX20.\nG40 Z5."): (20.0, 2.5),
+    ("fanuc:a", "G41 D1 G1 X9.\nX20.\nG40 Z5.\nX30."): (30.0, 0.0),
+    ("fanuc:a", "G41 D1 G1 X9.\nG92 X0\nX20.\nX30."): (39.0, 2.5),
+    ("fanuc:a", f"G65 P2 {' '.join(f'I{n}.' for n in range(1, 12))}\nM30\nO2\nG1 X#31\nM99"): (10.0, 0.0),
     ("linuxcnc", "G0 X1\nG10 L20 P1 X3\nG1 X4"): (2.0, 0.0),
     ("linuxcnc", "G0 X1\nG10 L20 P2 X3\nG55 G1 X4"): (2.0, 0.0),
     ("linuxcnc", "G10 L2 P9 X1\nG59.3 G1 X1"): (2.0, 0.0),

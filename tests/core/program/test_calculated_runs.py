@@ -611,6 +611,18 @@ def test_a_pick_takes_the_nearest_answer_of_a_run_that_the_steps_cannot_solve() 
     assert apart(plain(again.answers[again.taken]), plain(first.answers[first.taken])) < 1e-6
 
 
+def test_taking_the_answer_that_a_far_pick_left_moves_the_pick_to_its_joint() -> None:
+    """A line of 40, then a quarter circle from (40, 0) to (60, 20)."""
+    program = program_of(case_of(line(length=40, pick_x=100, pick_y=0), *PICKED["segments"][1:]))
+    taken = take_solution(program, FormPlace(1, 2), 0)
+    assert isinstance(taken, Program)
+    first = taken.blocks[0].segments[0]
+    assert isinstance(first, LineSegment)
+    assert (first.pick_x.value, first.pick_y.value) == pytest.approx((40.0, 0.0))
+    assert solve_block(taken.blocks[0], taken).whole
+    assert isinstance(take_solution(program, FormPlace(2, 1), 0), Refused)
+
+
 def test_a_pick_far_from_every_answer_takes_none() -> None:
     block = solved(case_of(line(length=40, pick_x=-500, pick_y=300), *PICKED["segments"][1:]))
     assert block.runs[0].taken is None

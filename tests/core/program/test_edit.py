@@ -29,6 +29,7 @@ from core.program.model import (
     Tool,
     Unread,
     changed,
+    unread_texts,
 )
 from core.units import Kind, Unit
 from tests.core.program.parts import BLOCK, arc, blend, line, program, programs
@@ -324,6 +325,7 @@ def test_set_unit_keeps_unreadable_text():
     unread = Unread("1,5", unread_reason("1,5", field_of(Form.LINE, "x_end"), Unit.IN))
     given = accepted(edit.type_field(SQUARE, FormPlace(1, 1), "x_end", unread))
     assert edit.set_unit(given, Unit.IN).blocks[0].segments[0] == LineSegment(x_end=unread, y_end=Number(0.0))
+    assert (list(unread_texts(SQUARE)), list(unread_texts(given))) == ([], [unread])
 
 
 @settings(derandomize=True, max_examples=15, suppress_health_check=[HealthCheck.too_slow])

@@ -154,6 +154,8 @@ def test_a_sketch_leads_to_the_typed_coordinate():
     half_typed = replace(line(x_end=3.0), y_end=Unread("2-", "Type a number."))
     assert solved(half_typed, 1.0, 1.0).sketch == Line((1.0, 1.0), (3.0, 1.0))
     assert solved(line(angle=3.0), 1.0, 1.0).sketch is None
+    contradictory = line(x_end=1.0, length=5.0, angle=0.0)
+    assert solved(contradictory, 1.0, 1.0).sketch == Line((1.0, 1.0), (6.0, 1.0))
 
 
 @pytest.mark.parametrize(("name", "end", "kept"), [("x_end", (3.0, 1.0), "y_end"), ("y_end", (1.0, 3.0), "x_end")])

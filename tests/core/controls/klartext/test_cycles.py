@@ -115,3 +115,19 @@ def test_contour_cycles_give_their_values_in_further_lines() -> None:
     assert run.stopped_at is None
     assert run.moves.points[-1, 2] == 100.0
     assert runs(*data, "CYCL DEF 22 ROUGH-OUT ~", "  Q10=+5 ;PLUNGING DEPTH", "CYCL CALL").stopped_at == 9
+
+
+@pytest.mark.parametrize(
+    ("cycle", "call", "axes"),
+    [
+        ("CYCL DEF 200 DRILLING", "CYCL CALL", "Z"),
+        ("CYCL DEF 200 DRILLING", "CYCL CALL PAT", "X and Y and Z"),
+        ("CYCL DEF 251 RECTANGULAR POCKET", "CYCL CALL", "X and Y and Z"),
+    ],
+)
+def test_the_axes_whose_place_is_not_known_after_a_cycle_are_named(cycle: str, call: str, axes: str) -> None:
+    made = runs("L X+1 Y+1 Z+1 R0 FMAX", cycle, call)
+    assert made.findings[-1].text.endswith(f"; cutcomp takes {axes} from the next absolute words.")
+    for axis in "XY":
+        after = runs("L X+1 Y+1 Z+1 R0 FMAX", cycle, call, f"L I{axis}+5 F9")
+        assert (("POSITION", 7) in codes(after)) is (axis in axes), axis
