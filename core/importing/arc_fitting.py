@@ -123,8 +123,7 @@ def _circle(points: Points, fit: float) -> _Fit | None:
     if off > fit or radius > MAX_RADIUS or abs(abs(turned.sum()) - tau) > 1e-6 or not _turns_one_way(turned):
         return None
     at = middle + center
-    start = at + (points[0] - at) / abs(points[0] - at) * radius
-    begin = point_of(start)
+    begin = point_of(at + radius)
     return _Fit(Arc(begin, begin, point_of(at), Turn.CCW if turned.sum() > 0.0 else Turn.CW), off)
 
 

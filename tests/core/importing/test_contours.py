@@ -26,7 +26,7 @@ from core.importing.contour import (
 from core.importing.contours import frame_notes, with_joined
 from core.importing.listing import matching, rows_of
 from core.importing.segments import with_contours
-from core.program.model import CutterComp, Program
+from core.program.model import CutterComp, LineSegment, Number, Program
 from core.units import Unit
 from tests.core.importing.drawings import (
     arc,
@@ -462,6 +462,7 @@ def test_the_start_of_a_slot_moves_from_corner_to_corner_and_from_side_to_side(
     first: tuple[float, float], corners: list[tuple[float, float]], sides: list[tuple[float, float]]
 ) -> None:
     contour = started_at(listed(dxf(*SLOT)).contours[0], first)
+    assert len(contour.pieces) == (4 if first == (0, -9) else 5)
     for move, starts, count in ((started_at_corner, corners, 4), (started_at_side, sides, 5)):
         moved = [move(contour, step) for step in (-2, -1, 1, 2)]
         assert [each.start for each in moved] == [pytest.approx(start) for start in starts]
@@ -600,6 +601,14 @@ def test_the_side_that_is_answered_is_that_of_open_contours_only(side: CutterCom
     assert [block.cutter_comp for block in program.blocks] == wanted
     asked = ("Chain 2 is open: choose CUTTER COMP. on START.",)
     assert [item.notes for item in made] == [(), (), asked if side is None else ()]
+
+
+def test_a_number_that_rounds_to_0_is_written_without_a_sign() -> None:
+    contour = listed(dxf(*square(-1e-5, -1e-5, 10))).contours[0]
+    _, (item,) = with_contours(Program(unit=Unit.MM), [contour])
+    ends = [(segment.x_end, segment.y_end) for segment in item.block.segments if isinstance(segment, LineSegment)]
+    written = {str(number.value) for end in ends for number in end if isinstance(number, Number)}
+    assert written == {"0.0", "5.0", "10.0"}
 
 
 @pytest.mark.parametrize("center", [(0.0, 0.0), (35.0, -12.0)])

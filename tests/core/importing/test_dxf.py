@@ -174,9 +174,44 @@ def test_the_comment_names_the_file_and_its_layers_once() -> None:
     assert comment("a.dxf", []) == "# from a.dxf"
 
 
-def test_an_unsupported_unit_is_named() -> None:
-    text = unit_question(read(dxf(*square(0, 0, 40), units=9)))
-    assert text.startswith("The drawing has a unit that is not read (mils, $INSUNITS 9). 40 x 40: ")
+UNITS = [
+    "-",
+    "IN",
+    "FT",
+    "-",
+    "MM",
+    "CM",
+    "M",
+    "-",
+    "-",
+    "-",
+    "-",
+    "-",
+    "-",
+    "-",
+    "-",
+    "-",
+    "-",
+    "-",
+    "-",
+    "-",
+    "-",
+    "-",
+    "-",
+]
+OTHER = {3: "miles", 7: "kilometers", 8: "microinches", 9: "mils", 10: "yards", 11: "angstroms", 12: "nanometers"}
+OTHER |= {13: "microns", 14: "decimeters", 15: "decameters", 16: "hectometers", 17: "gigameters"}
+OTHER |= {18: "astronomical units", 19: "light years", 20: "parsecs", 21: "US survey feet", 22: "unknown"}
+
+
+@pytest.mark.parametrize("code", range(1, 23))
+def test_the_unit_of_a_drawing_is_read_or_named(code: int) -> None:
+    """The codes of $INSUNITS in Autodesk's DXF reference."""
+    drawing = read(dxf(*square(0, 0, 40), units=code))
+    assert drawing.unit == (None if UNITS[code] == "-" else UNITS[code])
+    if code in OTHER:
+        text = f"The drawing has a unit that is not read ({OTHER[code]}, $INSUNITS {code}). 40 x 40: "
+        assert unit_question(drawing).startswith(text)
 
 
 def test_a_drawing_in_feet_is_converted_to_millimeters() -> None:
@@ -206,6 +241,8 @@ def test_a_sloped_line_is_refused_and_different_heights_are_reported() -> None:
     assert len(read(dxf(slope)).not_flat) == 1
     drawing = read(dxf(line((0, 0), (1, 0)), line((1, 0), (1, 1), z=5.0)))
     assert drawing.notes == ("The entities lie at heights from Z 0 to 5: Z is dropped.",)
+    symmetric = read(dxf(line((0, 0), (1, 0), z=-2.0), line((1, 0), (1, 1), z=2.0)))
+    assert symmetric.notes == ("The entities lie at heights from Z -2 to 2: Z is dropped.",)
 
 
 def polyline_3d(*points: tuple[float, float, float], flags: int) -> list[tuple[int, object]]:
