@@ -174,31 +174,7 @@ def test_the_comment_names_the_file_and_its_layers_once() -> None:
     assert comment("a.dxf", []) == "# from a.dxf"
 
 
-UNITS = [
-    "-",
-    "IN",
-    "FT",
-    "-",
-    "MM",
-    "CM",
-    "M",
-    "-",
-    "-",
-    "-",
-    "-",
-    "-",
-    "-",
-    "-",
-    "-",
-    "-",
-    "-",
-    "-",
-    "-",
-    "-",
-    "-",
-    "-",
-    "-",
-]
+UNITS = {1: "IN", 2: "FT", 4: "MM", 5: "CM", 6: "M"}
 OTHER = {3: "miles", 7: "kilometers", 8: "microinches", 9: "mils", 10: "yards", 11: "angstroms", 12: "nanometers"}
 OTHER |= {13: "microns", 14: "decimeters", 15: "decameters", 16: "hectometers", 17: "gigameters"}
 OTHER |= {18: "astronomical units", 19: "light years", 20: "parsecs", 21: "US survey feet", 22: "unknown"}
@@ -208,7 +184,7 @@ OTHER |= {18: "astronomical units", 19: "light years", 20: "parsecs", 21: "US su
 def test_the_unit_of_a_drawing_is_read_or_named(code: int) -> None:
     """The codes of $INSUNITS in Autodesk's DXF reference."""
     drawing = read(dxf(*square(0, 0, 40), units=code))
-    assert drawing.unit == (None if UNITS[code] == "-" else UNITS[code])
+    assert drawing.unit == UNITS.get(code)
     if code in OTHER:
         text = f"The drawing has a unit that is not read ({OTHER[code]}, $INSUNITS {code}). 40 x 40: "
         assert unit_question(drawing).startswith(text)
