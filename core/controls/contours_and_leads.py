@@ -10,6 +10,7 @@ from typing import Final, NamedTuple
 import numpy as np
 
 from core.controls.control_run import Stretch
+from core.controls.repeated_passes import path_key
 from core.geometry.distance import distance, foot
 from core.geometry.path import Floats, Path, Rows, coordinates
 from core.geometry.piece_arrays import at, direction, piece_arrays
@@ -19,7 +20,7 @@ MAX_LEAD_MOVES: Final = 2
 """Most moves that may lead in, out, or from one contour to the next: a line and an arc.  More are surface."""
 
 MAX_CONTOURS: Final = 32
-"""Most contours of a path; beyond this all moves count as surface, as each contour is judged with the whole path."""
+"""Most contours of different shapes in a path; beyond this all moves count as surface, to limit the work."""
 
 MAX_TANGENT_ANGLE: Final = radians(1.0)
 """Largest angle between the directions of a lead and of the contour at which they still run on tangent."""
@@ -50,12 +51,11 @@ def contours_of(path: Path) -> tuple[RowRange, ...]:
     longest = _longest(sums, point_ids)
     if longest is None:
         return (whole,)
-    longest = _between_leads(path, sums, point_ids, longest)
-    after = _end_of_overlap(path, longest)
-    inner = _passes_between_leads(path, longest)
-    contours = (*_within(sums, point_ids, (0, longest[0])), *inner, *_within(sums, point_ids, (after, len(path))))
+    passes = _passes_between_leads(path, longest) or (_between_leads(path, sums, point_ids, longest),)
+    first, after = passes[0][0], _end_of_overlap(path, (passes[0][0], passes[-1][1]))
+    contours = (*_within(sums, point_ids, (0, first)), *passes, *_within(sums, point_ids, (after, len(path))))
     contours = tuple(rows for rows in contours if is_closed(path, rows) or not _joins_by_arcs(path, rows))
-    return contours if len(contours) <= MAX_CONTOURS else (whole,)
+    return contours if len({path_key(path.part(*rows)) for rows in contours}) <= MAX_CONTOURS else (whole,)
 
 
 def _joins_by_arcs(path: Path, rows: RowRange) -> bool:
@@ -84,10 +84,10 @@ def closed_passes(path: Path, contour: RowRange) -> tuple[RowRange, ...]:
 
 
 def _passes_between_leads(path: Path, contour: RowRange) -> tuple[RowRange, ...]:
-    """Return the passes of a contour that begins at a point to which leads return after each pass, else the contour."""
+    """Return the passes of a contour that begins at a point to which leads return after each pass, if it does."""
     passes = closed_passes(path, contour)
     ends = [contour[0], *(row for rows in passes for row in rows), contour[1]]
-    return passes if all(first < second for first, second in pairwise(ends)) else (contour,)
+    return passes if all(first < second for first, second in pairwise(ends)) else ()
 
 
 def between_lead_arcs(path: Path, contour: RowRange, stretch: Stretch, *, cut_short: bool) -> RowRange:
@@ -115,8 +115,8 @@ def between_lead_arcs(path: Path, contour: RowRange, stretch: Stretch, *, cut_sh
 
 
 def is_closed(path: Path, rows: RowRange) -> bool:
-    """True if these pieces end where they begin."""
-    return bool(np.abs(path.points[rows[0]] - path.points[rows[1]]).max() <= CLOSED)
+    """True if there are pieces in these rows, and they end where they begin."""
+    return rows[0] < rows[1] and bool(np.abs(path.points[rows[0]] - path.points[rows[1]]).max() <= CLOSED)
 
 
 class SplitContours(NamedTuple):

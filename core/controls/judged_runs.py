@@ -361,30 +361,41 @@ def _judge_part(
     accepted = _accepted_difference(run, whole, center)
     closed = frozenset(line for rows in contours if not contours[rows] for line in whole.numbers[slice(*rows)].tolist())
 
-    rows, lines = list(contours), list(contours.values())
+    rows, cut_away = list(contours), tuple[StandingWall, ...]()
 
     def judged(walls: Sequence[StandingWall]) -> list[Judged]:
         alone = len(walls) + len(cut_away) == 1
         return [_judge_wall(run, stretch, wall, center, accepted, closed, alone=alone) for wall in walls]
 
-    cut_away, spans = tuple[StandingWall, ...](), rows
-    results = judged([StandingWall(whole.part(*span)) for span in spans])
+    spans, walls = rows, _walls(whole, rows)
+    results = judged(walls)
     if any(result.verdict.gouges for result in results):
         spans = [between_lead_arcs(whole, each, stretch, cut_short=run.stops_within(stretch)) for each in rows]
         passes = closed_passes_of(whole, spans, _heights(stretch, whole))
         standing = standing_walls(passes, stretch.side, stretch.radius)
         cut_away = tuple(wall for wall in standing if wall.cut_away_by)
-        standing = [wall for wall in standing if wall.stands]
         if cut_away:
-            opened = [index for index, span in enumerate(spans) if not is_closed(whole, span)]
-            lines = [*(frozenset[float]() for _ in standing), *(lines[index] for index in opened)]
-            results = judged([*standing, *(StandingWall(whole.part(*spans[index])) for index in opened)])
+            open_walls = _walls(whole, [span for span in spans if not is_closed(whole, span)])
+            results = judged([*(wall for wall in standing if wall.stands), *open_walls])
         elif spans != rows:
-            results = judged([StandingWall(whole.part(*span)) for span in spans])
-    results = [replace(result, open_lines=each) for result, each in zip(results, lines, strict=True)]
+            results = judged(_walls(whole, spans))
+    opened = [lines for lines in contours.values() if lines]
+    results = [
+        replace(result, open_lines=next((lines for lines in opened if result.lines <= lines), frozenset()))
+        for result in results
+    ]
     slack = max(result.verdict.radius_slack for result in results)
     results[0] = replace(results[0], cut_away=cut_away, uneven=_most_uneven(slack, whole, center))
     return _with_leads(results, whole, tuple(spans), accepted, arcs=spans != rows)
+
+
+def _walls(whole: Path, contours: Sequence[RowRange]) -> list[StandingWall]:
+    """Return the walls of contours; closed ones of one shape make one wall."""
+    shapes = dict[object, list[Path]]()
+    for rows in contours:
+        path = whole.part(*rows)
+        shapes.setdefault(path_key(path) if is_closed(whole, rows) else rows, []).append(path)
+    return [StandingWall(joined(paths)) for paths in shapes.values()]
 
 
 def _closed_passes(stretch: Stretch) -> list[ClosedPass]:

@@ -78,7 +78,7 @@ def closed_passes_of(path: Path, contours: Sequence[RowRange], heights: Floats) 
     return [
         ClosedPass(path.part(first, last), _region(path.part(first, last)), *_range(heights[first:last]))
         for contour in contours
-        if contour[0] < contour[1] and is_closed(path, contour)
+        if is_closed(path, contour)
         for first, last in closed_passes(path, contour)
     ]
 

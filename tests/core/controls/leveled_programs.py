@@ -16,6 +16,7 @@ Level = tuple[float, float]
 """Half the size of a pass, and its depth."""
 
 INSIDE: Final[dict[str, Sequence[Level]]] = {
+    "one size in steps": ((18, 4), (18, 7), (18, 10)),
     "wide, then deep": ((22, 2), (18, 10)),
     "deep, then wide": ((18, 10), (22, 2)),
     "wide in steps, then deep in steps": ((22, 1), (22, 2), (18, 4), (18, 7), (18, 10)),
@@ -83,4 +84,4 @@ CASES: Final = [
     for inside, kinds in ((True, INSIDE), (False, OUTSIDE))
     for levels in kinds.values()
 ]
-"""Sixty programs without an error."""
+"""Programs without an error."""

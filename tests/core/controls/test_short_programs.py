@@ -33,7 +33,7 @@ FANUC = {
     "G2 X0 Y0 R5.": "FN-R 2:10 The arc with R ends where it starts: no move.",
     "G91.1": "FN-G911 2:1 G91.1 is not a code of this control",
     "G31 X5.": "FN-SKIP 2:1 Where a skip signal stops this move is not known",
-    "G51 X0 I1. J2.": "BEYOND 2:1 cutcomp follows G51 with one P",
+    "G51 X0 I1. J2.": "BEYOND 2:8 cutcomp follows G51 with I, J and K of one size only",
     "G51 X0 Y0 P0": "PS0006 2:11 The factor P of G51",
     "G68 X0 Y0": "BEYOND 2:1 G68 has no R",
     "G10 L3 P1 R5.": "PS0031 2:5 G10 has L2 or L20",

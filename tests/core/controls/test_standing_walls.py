@@ -122,7 +122,7 @@ def test_passes_of_several_sizes_and_depths_are_clean(index: int) -> None:
     shape, levels, inside, rapid = CASES[index]
     findings = findings_of_levels(program(shape, levels, inside=inside, rapid=rapid), CONTROLS[index % 3])
     assert not errors(findings), findings
-    assert {finding.code for finding in findings} & {"ROUGHING"}
+    assert bool({finding.code for finding in findings} & {"ROUGHING"}) is (len({half for half, _ in levels}) > 1)
 
 
 @pytest.mark.parametrize("index", range(0, len(CASES), 2))
@@ -132,6 +132,14 @@ def test_a_wrong_side_or_lead_at_one_of_several_depths_is_found(index: int) -> N
     wrong_lead = program(shape, levels, inside=inside, rapid=rapid, wrong_lead=index % len(levels))
     for text in (wrong_side, wrong_lead):
         assert errors(findings_of_levels(text, CONTROLS[index % 3]))
+
+
+def test_forty_depths_with_leads_of_their_own_are_one_contour() -> None:
+    levels = [(18.0, 0.5 * step) for step in range(1, 41)]
+    findings = findings_of_levels(program("circle", levels, inside=True), "fanuc:a")
+    assert {finding.code for finding in findings if finding.severity is not Severity.INFO} <= {"FN-POINT"}
+    gouged = findings_of_levels(program("circle", levels, inside=True, wrong_lead=20), "fanuc:a")
+    assert "GOUGE" in errors(gouged)
 
 
 ONE_DEPTH: list[tuple[bool, list[Level]]] = [
