@@ -144,7 +144,11 @@ def _without_duplicates(items: list[LayeredPiece], tolerance: float, cleaned: Cl
 
     Closed contours are closed entities, and cells: faces between pieces of which each has a copy of every edge.
     """
-    copies = _equal_rows(items, tolerance, cleaned)
+    copies = _without_partial_copies(items, _equal_rows(items, tolerance), tolerance)
+    differences = (
+        (_difference(items[rows[0]].piece, items[row].piece), items[row].piece) for rows in copies for row in rows[1:]
+    )
+    cleaned.off = max(((off, _middle(piece)) for off, piece in differences), default=cleaned.off)
     shared = {items[row].entity for rows in copies for row in rows if len(rows) > 1} - {0}
     edges: defaultdict[int, dict[int, int]] = defaultdict(dict)
     for number, rows in enumerate(copies):
@@ -229,26 +233,50 @@ def _is_closed(items: Sequence[LayeredPiece], tolerance: float) -> bool:
     return all(len(ends) % 2 == 0 for ends in nodes_of([item.piece for item in items], tolerance).pieces)
 
 
-def _equal_rows(items: Sequence[LayeredPiece], tolerance: float, cleaned: Cleaned) -> list[list[int]]:
-    """Return the rows of equal pieces together, in order of the first of them; note the largest difference."""
+def _without_partial_copies(
+    items: Sequence[LayeredPiece], copies: Sequence[list[int]], tolerance: float
+) -> list[list[int]]:
+    """Take a piece for a copy only if it touches the other one, or if all pieces connected to it are copies.
+
+    A contour that runs near another one for a while keeps its pieces: without some of them it would be open.
+    """
+    runs = _runs(exact_nodes([item.piece for item in items], tolerance))
+    run_of = {row: number for number, run in enumerate(runs) for row in run}
+    run_sets = [{run_of[row] for row in rows} for rows in copies]
+    unlike = frozenset[int]().union(*(numbers for numbers in run_sets if len(numbers) == 1))
+    divided: list[list[int]] = []
+    for rows in copies:
+        parts: defaultdict[int, list[int]] = defaultdict(list)
+        for row in rows:
+            parts[run_of[row] if run_of[row] in unlike else -1].append(row)
+        whole = parts.pop(-1, [])
+        first, *others = parts.values() or [[]]
+        divided += [[*first, *whole], *others]
+    return divided
+
+
+def _equal_rows(items: Sequence[LayeredPiece], tolerance: float) -> list[list[int]]:
+    """Return the rows of equal pieces together, in order of the first of them."""
     # each of perhaps a thousand copies is compared only with the first of them
     slack, groups = min(tolerance, MOST_SLACK), list[list[int]]()
     width = max(slack, 1e-7)
     cells: defaultdict[tuple[int, int], list[list[int]]] = defaultdict(list)
     for row, item in enumerate(items):
         piece = item.piece
-        middle = piece.center if isinstance(piece, Arc) and is_circle(piece) else piece.point_at(0.5)
+        middle = _middle(piece)
         x, y = floor(middle[0] / width), floor(middle[1] / width)
         near = max(min(slack, piece.length / 4.0), 1e-7)
         around = (rows for right in (-1, 0, 1) for up in (-1, 0, 1) for rows in cells.get((x + right, y + up), ()))
-        differences = ((_difference(piece, items[rows[0]].piece), rows) for rows in around)
-        off, group = next((equal for equal in differences if equal[0] <= near), (0.0, []))
+        group = next((rows for rows in around if _difference(piece, items[rows[0]].piece) <= near), [])
         if not group:
             cells[x, y].append(group)
             groups.append(group)
         group.append(row)
-        cleaned.off = max(cleaned.off, (off, middle))
     return groups
+
+
+def _middle(piece: Piece) -> Point:
+    return piece.center if isinstance(piece, Arc) and is_circle(piece) else piece.point_at(0.5)
 
 
 def _difference(first: Piece, second: Piece) -> float:

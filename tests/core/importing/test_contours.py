@@ -377,6 +377,31 @@ def test_a_line_outline_keeps_its_edge_on_a_closed_polyline() -> None:
     assert (len(drawing.contours), drawing.shared, drawing.duplicates) == (1, 0, 4)
 
 
+@pytest.mark.parametrize(
+    ("corners", "area"),
+    [
+        ([(0.005, 0.005), (6, 0.005), (6, 9.995), (0.005, 9.995)], 59.890),
+        ([(0.005, 0.005), (9, 2), (9, 8), (0.005, 9.995)], 71.915),
+    ],
+)
+def test_a_contour_keeps_the_edge_that_runs_near_another_contour(
+    corners: list[tuple[float, float]], area: float
+) -> None:
+    inner = [line(start, end) for start, end in itertools.pairwise([*corners, corners[0]])]
+    drawing = listed(dxf(*square(0, 0, 10), *inner))
+    assert [contour.area for contour in drawing.contours] == pytest.approx([100.0, area], abs=1e-3)
+    assert (drawing.duplicates, drawing.off[0]) == (0, 0.0)
+
+
+@pytest.mark.parametrize(
+    ("copy", "count"), [(square(0.003, 0.004, 10), 4), ([line((0.003, 0.004), (10.003, 0.004))], 1)]
+)
+def test_a_copy_near_its_original_is_dropped(copy: list[list[tuple[int, object]]], count: int) -> None:
+    drawing = listed(dxf(*square(0, 0, 10), *copy))
+    assert [(contour.closed, contour.drawn) for contour in drawing.contours] == [(True, 4)]
+    assert (drawing.duplicates, drawing.off[0]) == pytest.approx((count, 0.005))
+
+
 def test_a_doubled_drawing_keeps_its_dividing_line() -> None:
     drawing = listed(dxf(*([*square(0, 0, 10), line((0, 0), (10, 10))] * 2)))
     assert [(contour.closed, contour.drawn) for contour in drawing.contours] == [(True, 4), (False, 1)]
