@@ -7,25 +7,9 @@ from typing import TYPE_CHECKING
 
 if TYPE_CHECKING:
     from core.comp.best_path.best_path import BestPath
-    from core.comp.compensated import Compensated
+    from core.comp.compensated import CenterPath, Compensated
     from core.geometry.path import Path
     from core.verify.verdict import Verdict
-
-
-@dataclass(frozen=True, eq=False, slots=True)
-class Loop:
-    """One center path with its blend moves, cut in one go."""
-
-    path: Path
-    lead_in: Path
-    lead_out: Path
-
-    @property
-    def whole(self) -> Path:
-        """Blend-in, path and blend-out as one path."""
-        from core.geometry.path import joined
-
-        return joined((self.lead_in, self.path, self.lead_out))
 
 
 @dataclass(frozen=True, eq=False, slots=True)
@@ -37,7 +21,7 @@ class RoughPass:
     """
 
     stock: float
-    loops: tuple[Loop, ...]
+    loops: tuple[CenterPath, ...]
     compensated: Compensated
     verdict: Verdict
 
@@ -53,7 +37,7 @@ class BlockPaths:
     """
 
     surface: Path
-    loops: tuple[Loop, ...]
+    loops: tuple[CenterPath, ...]
     compensated: Compensated | None
     verdict: Verdict | None
     rough: tuple[RoughPass, ...] = ()

@@ -8,11 +8,11 @@ from typing import Final, NamedTuple
 
 import numpy as np
 
-from core.advice.block_paths import BlockPaths, Loop, RoughPass
+from core.advice.block_paths import BlockPaths, RoughPass
 from core.advice.remedies import FEWEST_CLOSED
 from core.comp.best_path.best_path import BestPath
 from core.comp.best_path.separation import Separation
-from core.comp.compensated import Compensated
+from core.comp.compensated import CenterPath, Compensated
 from core.finding import Finding, Severity
 from core.geometry.path import Path, as_complex, next_in_ring
 from core.geometry.piece import Point, Side
@@ -59,7 +59,7 @@ class _Rows(NamedTuple):
     end: int
 
 
-def _rows(loops: Sequence[Loop]) -> Iterator[tuple[Loop, _Rows]]:
+def _rows(loops: Sequence[CenterPath]) -> Iterator[tuple[CenterPath, _Rows]]:
     first = 0
     for loop in loops:
         path = first + len(loop.lead_in)
@@ -91,7 +91,7 @@ def move_names(work: BlockPaths) -> Names:
     return name
 
 
-def _lead_out_name(loop: Loop, row: int, surface: Path) -> str:
+def _lead_out_name(loop: CenterPath, row: int, surface: Path) -> str:
     lead = loop.lead_out
     # the overlap's arcs share centers with the path's own, the blend arc does not
     again = bool((as_complex(loop.path.centers) == as_complex(lead.centers)[row]).any())
@@ -100,7 +100,9 @@ def _lead_out_name(loop: Loop, row: int, surface: Path) -> str:
     return f"{move_name(lead, row, surface)} past START"
 
 
-def blend_findings(loops: Sequence[Loop], gouges: Sequence[Gouge], wrong_side: Sequence[int]) -> Iterator[Finding]:
+def blend_findings(
+    loops: Sequence[CenterPath], gouges: Sequence[Gouge], wrong_side: Sequence[int]
+) -> Iterator[Finding]:
     """Report blend arcs that gouge or cross a wall; another start or a smaller BLEND OFFSET is the remedy.
 
     `wrong_side` are the moves that run on the part's side, by their rows in the verdict.
@@ -116,7 +118,7 @@ def blend_findings(loops: Sequence[Loop], gouges: Sequence[Gouge], wrong_side: S
                 yield _blend_crosses_wall(loop, name)
 
 
-def _blend_crosses_wall(loop: Loop, name: str) -> Finding:
+def _blend_crosses_wall(loop: CenterPath, name: str) -> Finding:
     """Return the warning about a blend arc that crosses a wall, at the arc's free end."""
     lead, row, way = (loop.lead_in, 0, "from") if name == "in" else (loop.lead_out, -1, "to")
     x, y = lead.points[row].tolist()

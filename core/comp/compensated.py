@@ -9,8 +9,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from core.finding import Finding
-from core.geometry.path import Floats, Path, joined
-from core.geometry.piece import Side
+from core.geometry.path import EMPTY, Floats, Path, joined
+from core.geometry.piece import Point, Side
 
 
 @dataclass(frozen=True, slots=True)
@@ -36,6 +36,27 @@ class Deletions:
     def __iter__(self) -> Iterator[Deleted]:
         rows = zip(self.segments.tolist(), self.by.tolist(), self.at.tolist(), strict=True)
         return (Deleted(segment, (a, b), (x, y)) for segment, (a, b), (x, y) in rows)
+
+
+@dataclass(frozen=True, eq=False, slots=True)
+class CenterPath:
+    """One center path with its blend moves, joined end to start; `offset` is the stock it leaves on the side (mm)."""
+
+    path: Path
+    lead_in: Path = EMPTY
+    lead_out: Path = EMPTY
+    offset: float = 0.0
+
+    @property
+    def whole(self) -> Path:
+        """Blend-in, path and blend-out as one path."""
+        return joined((self.lead_in, self.path, self.lead_out))
+
+    @property
+    def plunge_point(self) -> Point | None:
+        """The point where the tool goes down; None for a run without pieces."""
+        whole = self.whole
+        return (float(whole.points[0, 0]), float(whole.points[0, 1])) if len(whole) else None
 
 
 @dataclass(frozen=True, eq=False, slots=True)

@@ -9,9 +9,10 @@ from typing import Final
 
 import numpy as np
 
+from core.comp.compensated import CenterPath
 from core.finding import Finding, Severity
 from core.output.grid import Grid, feed_text
-from core.output.passes import CenterPath, Job, rough_runs
+from core.output.passes import Job, rough_runs
 from core.tolerance import JOINED, LARGEST_COORDINATE
 
 OVERRIDE_PHRASE: Final = "POST WITH GOUGE"

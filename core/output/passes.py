@@ -28,9 +28,10 @@ from typing import Final
 import numpy as np
 
 from core.advice.path_findings import ZStep
+from core.comp.compensated import CenterPath
 from core.controls.write.contour_pass import CenterMove
 from core.finding import Finding, Severity
-from core.geometry.path import EMPTY, Floats, Path, Pieces, joined, pieces_of, swept
+from core.geometry.path import Floats, Path, Pieces, pieces_of, swept
 from core.geometry.piece import Line, Piece, Point
 from core.program.model import Coolant
 from core.tolerance import CLOSED, JOINED, LAST_PASS
@@ -46,27 +47,6 @@ class Cutter:
     number: int
     diameter: float
     type: str = ""
-
-
-@dataclass(frozen=True, eq=False, slots=True)
-class CenterPath:
-    """One center path with its blend moves, joined end to start; `offset` is the stock it leaves on the side (mm)."""
-
-    path: Path
-    lead_in: Path = EMPTY
-    lead_out: Path = EMPTY
-    offset: float = 0.0
-
-    @property
-    def whole(self) -> Path:
-        """Blend-in, path and blend-out as one path."""
-        return joined((self.lead_in, self.path, self.lead_out))
-
-    @property
-    def plunge_point(self) -> Point | None:
-        """The point where the tool goes down; None for a run without pieces."""
-        whole = self.whole
-        return (float(whole.points[0, 0]), float(whole.points[0, 1])) if len(whole) else None
 
 
 @dataclass(frozen=True, slots=True)

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass, replace
 
-from core.advice.block_paths import BlockPaths, Loop, RoughPass
+from core.advice.block_paths import BlockPaths, RoughPass
 from core.advice.lookahead_table import CuttingSetup, Table, judge_lookaheads
 from core.advice.path_findings import (
     better_path_findings,
@@ -22,9 +22,9 @@ from core.comp.best_path.best_path import BestPath, best_path
 from core.comp.best_path.separation import separation
 from core.comp.blend_moves import blend_in, blend_out
 from core.comp.compensate import compensate
-from core.comp.compensated import Compensated
+from core.comp.compensated import CenterPath, Compensated
 from core.finding import Finding, Severity
-from core.geometry.path import EMPTY, Path
+from core.geometry.path import Path
 from core.geometry.piece import Side
 from core.output.grid import Grid
 from core.output.objections import OVERRIDABLE_CODES, job_errors
@@ -86,7 +86,7 @@ def _work(block: DerivedBlock, program: Program, progress: Progress) -> BlockPat
     numbers, pieces = zip(*block.solved.pieces, strict=True)
     surface = Path.from_pieces(pieces, numbers)
     if block.side is None:
-        return BlockPaths(surface, (Loop(surface, EMPTY, EMPTY),), None, None)
+        return BlockPaths(surface, (CenterPath(surface),), None, None)
     assert block.radius is not None
     contour = _Contour(surface, block.side, block.solved.closed, block.lookahead.value, program)
     control, best, loops = contour.paths(block.radius)
@@ -106,7 +106,7 @@ class _Contour:
     lookahead: int
     program: Program
 
-    def paths(self, radius: float) -> tuple[Compensated, BestPath | None, tuple[Loop, ...]]:
+    def paths(self, radius: float) -> tuple[Compensated, BestPath | None, tuple[CenterPath, ...]]:
         """Return the control's path, the best path if PATH is BEST, and the loops that are posted, with their blends.
 
         Those are the control's path, or every loop of the best one.
@@ -116,16 +116,16 @@ class _Contour:
             self.surface, self.side, radius, self.lookahead, closed=self.closed, blend=blend, overlap=overlap
         )
         if self.program.parameters.path is not PathChoice.BEST:
-            posted = Loop(control.path, control.lead_in, control.lead_out)
+            posted = CenterPath(control.path, control.lead_in, control.lead_out)
             return control, None, (posted,) if len(control.path) else ()
         best = best_path(self.surface, self.side, radius, closed=self.closed)
         loops = tuple(
-            Loop(loop, blend_in(loop, self.side, blend), blend_out(loop, self.side, blend, overlap, closed=ring))
+            CenterPath(loop, blend_in(loop, self.side, blend), blend_out(loop, self.side, blend, overlap, closed=ring))
             for loop, ring in zip(best.loops, best.closed, strict=True)
         )
         return control, best, loops
 
-    def verdict(self, radius: float, loops: tuple[Loop, ...]) -> Verdict:
+    def verdict(self, radius: float, loops: tuple[CenterPath, ...]) -> Verdict:
         """Return the verdict on a cutter that runs these loops."""
         return judge_together(self.surface, self.side, radius, [loop.whole for loop in loops])
 

@@ -3,10 +3,10 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
+from dataclasses import replace
 
-from core.advice.block_paths import Loop
 from core.geometry.path import EMPTY
-from core.output.passes import CenterPath, Cutter, Floor, Job
+from core.output.passes import Cutter, Floor, Job
 from core.pipeline.derived import Derived, DerivedBlock
 from core.pipeline.parameters import parameter
 from core.program.model import Number, Program, Typed
@@ -33,8 +33,10 @@ def job(block: DerivedBlock, program: Program) -> Job:
             Floor(segment.number, segment.z_start, segment.z_end, segment.feed)
             for segment in solved.segments[: solved.determined]
         ),
-        finish=tuple(map(_center_path, work.loops)) if work else (),
-        rough=tuple(_center_path(loop, rough.stock) for rough in (work.rough if work else ()) for loop in rough.loops),
+        finish=work.loops if work else (),
+        rough=tuple(
+            replace(loop, offset=rough.stock) for rough in (work.rough if work else ()) for loop in rough.loops
+        ),
         z_start=solved.z_start or 0.0,
         z_bottom=solved.z_bottom or 0.0,
         peck_depth=solved.peck_depth,
@@ -83,7 +85,3 @@ def _cutter(number: Typed, diameter: float | None, program: Program) -> Cutter |
         return None
     tool = find_tool(program, number.value)
     return Cutter(int(number.value), diameter, "" if tool is None else tool.type)
-
-
-def _center_path(loop: Loop, stock: float = 0.0) -> CenterPath:
-    return CenterPath(loop.path, loop.lead_in, loop.lead_out, stock)

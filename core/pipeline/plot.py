@@ -10,9 +10,9 @@ from typing import Final, NamedTuple
 
 import numpy as np
 
-from core.advice.block_paths import BlockPaths, Loop
+from core.advice.block_paths import BlockPaths
 from core.advice.lookahead_table import Row
-from core.comp.compensated import Compensated
+from core.comp.compensated import CenterPath, Compensated
 from core.draw.areas import gouged, material, uncut
 from core.draw.characters import CELLS_OF_MODE, Mode, scale_bar
 from core.draw.raster import Picture, draw
@@ -87,8 +87,8 @@ def block_scene(block: DerivedBlock, segment: int | None, unit: Unit, row: Row |
         control = None
     if row is not None:
         control, verdict = row.compensated, row.verdict
-        loops = (Loop(control.path, control.lead_in, control.lead_out),)
-    surface, first = _surface(block), loops[0] if loops else Loop(EMPTY, EMPTY, EMPTY)
+        loops = (CenterPath(control.path, control.lead_in, control.lead_out),)
+    surface, first = _surface(block), loops[0] if loops else CenterPath(EMPTY)
     return contour_scene(
         surface,
         unit=unit,
@@ -304,13 +304,13 @@ def _current(block: DerivedBlock, segment: int | None) -> Path | None:
 
 
 def _cutter(
-    block: DerivedBlock, loops: Sequence[Loop], control: Compensated | None, segment: int | None
+    block: DerivedBlock, loops: Sequence[CenterPath], control: Compensated | None, segment: int | None
 ) -> tuple[Point, float] | None:
     place = None if segment is None else _place(loops, control, segment)
     return None if place is None or block.radius is None else (place, block.radius)
 
 
-def _place(loops: Sequence[Loop], control: Compensated | None, segment: int) -> Point | None:
+def _place(loops: Sequence[CenterPath], control: Compensated | None, segment: int) -> Point | None:
     """Return the end of a segment's path, the path's start for START, or where the path passes a deleted segment."""
     for loop in loops:
         parts = [part for part in (loop.lead_in, loop.path, loop.lead_out) if len(part)]

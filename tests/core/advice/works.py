@@ -2,8 +2,9 @@
 
 from __future__ import annotations
 
-from core.advice.block_paths import BlockPaths, Loop, RoughPass
+from core.advice.block_paths import BlockPaths, RoughPass
 from core.comp.compensate import compensate
+from core.comp.compensated import CenterPath
 from core.geometry.path import Path
 from core.geometry.piece import Side
 from core.verify.judge import judge_together
@@ -22,9 +23,9 @@ def work(
 ) -> BlockPaths:
     """The control's path at full size and the roughing passes that leave these stocks."""
 
-    def cut(size: float) -> tuple[RoughPass, tuple[Loop, ...]]:
+    def cut(size: float) -> tuple[RoughPass, tuple[CenterPath, ...]]:
         control = compensate(contour, side, size, lookahead, closed=closed, blend=blend, overlap=overlap)
-        loops = (Loop(control.path, control.lead_in, control.lead_out),) if len(control.path) else ()
+        loops = (CenterPath(control.path, control.lead_in, control.lead_out),) if len(control.path) else ()
         verdict = judge_together(contour, side, size, [loop.whole for loop in loops])
         return RoughPass(size - radius, loops, control, verdict), loops
 

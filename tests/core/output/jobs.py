@@ -5,9 +5,10 @@ from __future__ import annotations
 from dataclasses import replace
 from itertools import pairwise
 
+from core.comp.compensated import CenterPath
 from core.geometry.path import Path
 from core.geometry.piece import Arc, Line, Piece, Point, Turn
-from core.output.passes import CenterPath, Cutter, Floor, Job
+from core.output.passes import Cutter, Floor, Job
 
 INCH = 25.4
 

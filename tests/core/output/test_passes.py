@@ -5,21 +5,11 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
+from core.comp.compensated import CenterPath
 from core.controls.write.contour_pass import CenterMove
 from core.geometry.path import Path
 from core.geometry.piece import Line, Turn
-from core.output.passes import (
-    CenterPath,
-    Cutter,
-    Floor,
-    Job,
-    Pass,
-    heights,
-    levels,
-    meets_solid,
-    passes,
-    z_steps,
-)
+from core.output.passes import Cutter, Floor, Job, Pass, heights, levels, meets_solid, passes, z_steps
 from tests.core.output.jobs import INCH, arc, job, path_of, polyline
 
 SLOT = polyline((0, 0), (2, 0), (2, 1))

@@ -3,11 +3,12 @@ from itertools import pairwise
 
 import pytest
 
+from core.comp.compensated import CenterPath
 from core.finding import Finding, Severity
 from core.geometry.piece import Turn
 from core.output.nc import Posted, Refusal, center_path_program, comments
 from core.output.objections import OVERRIDE_PHRASE
-from core.output.passes import CenterPath, Cutter, Floor, Job, passes
+from core.output.passes import Cutter, Floor, Job, passes
 from core.program.model import Coolant
 from core.units import Unit, located_sentence
 from tests.core.output.jobs import INCH, arc, floors, job, path_of, polyline

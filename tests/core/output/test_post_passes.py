@@ -2,8 +2,9 @@
 
 from dataclasses import replace
 
+from core.comp.compensated import CenterPath
 from core.output.nc import Posted, center_path_program
-from core.output.passes import CenterPath, Cutter, Job
+from core.output.passes import Cutter, Job
 from core.units import Unit
 from tests.core.output.jobs import INCH, job, polyline
 

@@ -11,10 +11,11 @@ import pytest
 from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
 
+from core.comp.compensated import CenterPath
 from core.controls.write.contour_pass import CenterMove
 from core.geometry.piece import Arc, Line, Piece, Point, Turn
 from core.output.nc import Posted, center_path_program
-from core.output.passes import CenterPath, Cutter, Job, passes
+from core.output.passes import Cutter, Job, passes
 from core.units import Unit
 from tests import rs274
 from tests.core.output.jobs import INCH, arc, floors, job, path_of, polyline

@@ -5,9 +5,10 @@ from __future__ import annotations
 from dataclasses import replace
 from xml.etree import ElementTree
 
+from core.comp.compensated import CenterPath
 from core.finding import Finding, Severity
 from core.geometry.piece import Turn
-from core.output.passes import CenterPath, Cutter, Job
+from core.output.passes import Cutter, Job
 from core.output.sheet import NOT_READY_TEXT, PAGE_COLUMNS, READY_TEXT, Sheet, as_page, as_text, sheet
 from core.program.model import Coolant
 from core.units import Unit

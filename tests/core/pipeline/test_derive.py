@@ -3,9 +3,9 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from core.advice.block_paths import Loop
 from core.advice.path_findings import move_names, path_findings
 from core.comp.blend_moves import blend_in, blend_out
+from core.comp.compensated import CenterPath
 from core.finding import Severity
 from core.geometry.path import Path
 from core.geometry.piece import Side
@@ -284,7 +284,7 @@ def test_a_path_that_leaves_the_part_and_turns_back_is_reported():
     start, end = (0.0, radius), (0.5 * IN, radius)
     corners = (start, (0.3 * IN, radius), (0.35 * IN, 2 * radius), (0.4 * IN, radius), (0.2 * IN, radius), end)
     path = Path.of(np.array(corners), np.array(corners[:-1]), np.zeros(5, np.int8), np.ones(5))
-    loop = Loop(path, blend_in(path, Side.LEFT, 1.0), blend_out(path, Side.LEFT, 1.0, 0.0, closed=False))
+    loop = CenterPath(path, blend_in(path, Side.LEFT, 1.0), blend_out(path, Side.LEFT, 1.0, 0.0, closed=False))
     verdict = judge_together(work.surface, Side.LEFT, radius, [loop.whole])
     findings = path_findings(replace(work, loops=(loop,), verdict=verdict))
     against, away = (finding for finding in findings if finding.code in ("AWAY", "BACKWARDS"))
