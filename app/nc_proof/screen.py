@@ -48,7 +48,7 @@ from app.widgets.plain import PlainLabel, PlainText
 from app.widgets.softkeys import Softkey
 from app.widgets.status import Status
 from app.widgets.verdict import MARKS_OF_CHARACTERS
-from core.controls.control_names import shown_name
+from core.controls.control_names import display_name
 from core.controls.control_tools import CutterTool, ToolId, ToolTable, commented_size, tool_id
 from core.controls.registry import choices
 from core.finding import Finding, Severity
@@ -377,7 +377,7 @@ class ProofScreen(BaseScreen):
                 self._end_dotted()
                 self.dotted = dotted
                 self._draw()
-                self.say(f"Dotted: {shown_name(control)} {other.answer.outcome}. B removes it.")
+                self.say(f"Dotted: {display_name(control)} {other.answer.outcome}. B removes it.")
 
     def _end_dotted(self) -> None:
         """Drop the other control's path and stop its run."""
@@ -410,8 +410,8 @@ class ProofScreen(BaseScreen):
 
     def _show_titles(self) -> None:
         tools = "  ".join(map(self._shown_tool, self.question.tools.tools.values()))
-        dotted = f", dotted {shown_name(self.dotted_control)}" if self.dotted_control else ""
-        self.query_one("#proof-control", Label).update(f"{shown_name(self.question.control)}{dotted}")
+        dotted = f", dotted {display_name(self.dotted_control)}" if self.dotted_control else ""
+        self.query_one("#proof-control", Label).update(f"{display_name(self.question.control)}{dotted}")
         self.query_one("#proof-tools", Label).update(f"tools {tools or 'none given'}")
         path = self.document.file.path
         name = "NO NAME" if path is None else path.name
@@ -553,7 +553,7 @@ class ProofScreen(BaseScreen):
             scene = replace(scene, layers=(*dotted.path, *scene.layers))
             other = dotted.result
             second = self.query_one("#proof-dotted", Drawing)
-            second.heading = f"{shown_name(other.question.control)}: {other.answer.outcome}"
+            second.heading = f"{display_name(other.question.control)}: {other.answer.outcome}"
             second.subject = SceneSubject(scene_at_line(other.scene, other.proof, line), self.unit, self.view_of)
         self.set_class(dotted is not None, "-dotted")
         drawing = self.query_one("#proof-drawing", Drawing)

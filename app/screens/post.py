@@ -27,7 +27,7 @@ from app.widgets.plain import PlainLabel, PlainText
 from app.widgets.softkeys import Softkey
 from app.widgets.status import SPACED_UNITS
 from app.widgets.verdict import MARKS_OF_CHARACTERS
-from core.controls.control_names import shown_name
+from core.controls.control_names import display_name
 from core.program.file.read import StoreError
 from core.progress import Stopped
 
@@ -224,7 +224,7 @@ class PostScreen(EntryScreen):
             return
         self.host.posted_for = choice
         where, lines = written[0], written[1].count("\n")
-        what = "the center path" if choice == CENTER_PATH else f"for {shown_name(choice)}"
+        what = "the center path" if choice == CENTER_PATH else f"for {display_name(choice)}"
         self.notify(f"Posted {what}: {where}, {lines} lines.", timeout=5)
         self.app.call_later(self.app.run_action, "app.back")
         self.app.call_later(self.host.end_guide, f"Posted. {WHOLE_WAY}")

@@ -80,7 +80,7 @@ def inside_name(control: str) -> str:
     return f"{_INSIDE.get(name, name)}{colon}{variant}"
 
 
-def shown_name(control: str) -> str:
+def display_name(control: str) -> str:
     """Return the name that operators type and read for a control's full or short name inside cutcomp."""
     name, colon, variant = control.partition(":")
     return f"{CONTROL_NAMES[name].name if name in CONTROL_NAMES else name}{colon}{variant}"

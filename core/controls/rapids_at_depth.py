@@ -80,7 +80,7 @@ def moves_through(run: ControlRun, contours: Sequence[CutContour]) -> tuple[Unco
         moves = run.moves.part(int(rows[0]) - 1, int(rows[-1]) + 1)
         before = max(int(np.searchsorted(ends, rows[0], side="right")) - 1, 0)
         cuts += _cuts(moves, run.stretches[before].radius, contours, rapid=True)
-    for stretch, first, last in _feeds_beside(run):
+    for stretch, first, last in _adjoining_feeds(run):
         own_contours = [contour for contour in contours if stretch.has_part(contour.stretch)]
         cuts += _cuts(run.moves.part(first, last), stretch.radius, own_contours, rapid=False)
     # a wall that is already cut takes precedence over one that is yet to be cut
@@ -89,7 +89,7 @@ def moves_through(run: ControlRun, contours: Sequence[CutContour]) -> tuple[Unco
     return tuple(deepest[line] for line in sorted(deepest))
 
 
-def _feeds_beside(run: ControlRun) -> Iterator[tuple[Stretch, int, int]]:
+def _adjoining_feeds(run: ControlRun) -> Iterator[tuple[Stretch, int, int]]:
     """Yield stretches with the rows of feed moves that lead to them or follow them, at the height of the stretch's end.
 
     The first row is where the moves start; the second is one past the last.

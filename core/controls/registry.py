@@ -13,7 +13,7 @@ from typing import Final
 
 import numpy as np
 
-from core.controls.control_names import CONTROL_NAMES, ControlChoice, inside_name, shown_name
+from core.controls.control_names import CONTROL_NAMES, ControlChoice, display_name, inside_name
 from core.controls.control_run import ControlRun
 from core.controls.control_tools import ToolTable
 from core.controls.iso.arcs import ArcTolerance
@@ -95,7 +95,7 @@ def choices() -> tuple[ControlChoice, ...]:
     return tuple(
         ControlChoice(
             full := _joined(inside, variant),
-            shown_name(full),
+            display_name(full),
             entry.title,
             f"{entry.variants[variant]}; {entry.about}" if variant else entry.about,
         )

@@ -26,7 +26,7 @@ def carrier(piece: Piece, left: float = 0.0) -> Carrier:
     return Carrier(complex(*piece.start) + 1j * along * left, along, 0.0)
 
 
-def meeting_places(first: Carrier, second: Carrier) -> list[complex]:
+def meeting_points(first: Carrier, second: Carrier) -> list[complex]:
     """Return the points where two carriers meet: none, one or two."""
     if first.along and second.along:
         cross = (first.along.conjugate() * second.along).imag
@@ -39,7 +39,7 @@ def meeting_places(first: Carrier, second: Carrier) -> list[complex]:
 
 def carriers_meet(first: Piece, second: Piece) -> list[Point]:
     """Return the points where the endless lines or whole circles of two pieces meet."""
-    return [(place.real, place.imag) for place in meeting_places(carrier(first), carrier(second))]
+    return [(place.real, place.imag) for place in meeting_points(carrier(first), carrier(second))]
 
 
 def _line_meets_circle(line: Carrier, circle: Carrier) -> list[complex]:

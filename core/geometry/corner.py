@@ -14,7 +14,7 @@ from enum import Enum, auto
 from math import asin, pi, sin, tan, tau
 from typing import NamedTuple
 
-from core.geometry.carrier import carrier, meeting_places
+from core.geometry.carrier import carrier, meeting_points
 from core.geometry.construct import rotated
 from core.geometry.piece import ANGLE_ROUNDING, Arc, Line, Piece, Point, Turn, point_of
 from core.tolerance import JOINED, ON_PATH
@@ -76,7 +76,7 @@ class _Fit(NamedTuple):
 
 def _touching(before: Piece, after: Piece, radius: float, turn: Turn) -> list[_Fit]:
     fits, left = [], turn * radius
-    for center in meeting_places(carrier(before, left), carrier(after, left)):
+    for center in meeting_points(carrier(before, left), carrier(after, left)):
         first, last = _foot(before, center, left), _foot(after, center, left)
         if first is None or last is None or abs(first - last) <= JOINED:
             continue

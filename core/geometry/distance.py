@@ -107,23 +107,23 @@ def _fan(arc: PieceArrays, axis: Points, share: Floats) -> Floats:
     return np.mod(np.array((middle - half, middle + half)), tau) / arc.angle
 
 
-def nearest_places(pieces: PieceArrays, other: PieceArrays) -> Floats:
+def nearest_fractions(pieces: PieceArrays, other: PieceArrays) -> Floats:
     """Return (8, n) fractions of n pieces that include every local least distance from the n partners in `other`."""
     fractions = np.concatenate((_ends(pieces), _crossings(pieces, other), feet(pieces, other)))
     return _clamped(fractions)
 
 
-def farthest_places(pieces: PieceArrays, other: PieceArrays) -> Floats:
+def farthest_fractions(pieces: PieceArrays, other: PieceArrays) -> Floats:
     """Return (10, n) fractions that include every local greatest distance from the partner in `other`, except at ends.
 
     They are the feet, their antipodes, and the points equally far from an arc partner's two ends.
     """
-    even = by_kind(other.arcs, _no_places, _even_places, pieces, other)
+    even = by_kind(other.arcs, _no_fractions, _equidistant_fractions, pieces, other)
     opposite = by_kind(pieces.arcs, _no_antipodes, _antipodes, pieces, other)
     return _clamped(np.concatenate((feet(pieces, other), opposite, even)))
 
 
-def band_places(pieces: PieceArrays, other: PieceArrays, reach: Floats) -> Floats:
+def band_fractions(pieces: PieceArrays, other: PieceArrays, reach: Floats) -> Floats:
     """Return (10, n) rising fractions that split each piece where its distance from its partner may pass `reach` (n,).
 
     These are the piece's ends, and where it meets the outline of all points within `reach` of the partner: the partner
@@ -208,13 +208,13 @@ def _no_antipodes(line: PieceArrays, _other: PieceArrays) -> Floats:
     return np.zeros((2, len(line)))
 
 
-def _even_places(pieces: PieceArrays, arc: PieceArrays) -> Floats:
+def _equidistant_fractions(pieces: PieceArrays, arc: PieceArrays) -> Floats:
     middle = arc.arm / arc.radius * np.exp(0.5j * arc.turn * arc.angle)
     fractions = on_line(pieces, arc.center, middle)
     return np.concatenate((fractions, fractions))
 
 
-def _no_places(pieces: PieceArrays, _other: PieceArrays) -> Floats:
+def _no_fractions(pieces: PieceArrays, _other: PieceArrays) -> Floats:
     return np.zeros((4, len(pieces)))
 
 

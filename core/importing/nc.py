@@ -13,7 +13,7 @@ from math import dist, pi
 from typing import Final
 
 from core.controls.contours_and_leads import split_where_it_closes
-from core.controls.control_names import shown_name
+from core.controls.control_names import display_name
 from core.controls.control_run import ControlRun, Stretch
 from core.controls.control_tools import ToolTable
 from core.controls.moves import Moves, Plane
@@ -66,7 +66,7 @@ def _refuse_alarm(result: ControlRun) -> None:
     errors = [finding for finding in result.findings if finding.severity is Severity.ERROR]
     why = next((finding for finding in errors if finding.line == result.stopped_at), errors[0] if errors else None)
     words = "" if why is None else f": {sentence(why, result.unit)}"
-    raise NcError(f"{shown_name(result.control)} stops at line {result.stopped_at}{words}")
+    raise NcError(f"{display_name(result.control)} stops at line {result.stopped_at}{words}")
 
 
 def _run_notes(result: ControlRun) -> tuple[str, ...]:

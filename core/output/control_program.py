@@ -8,7 +8,7 @@ from __future__ import annotations
 from collections.abc import Iterator, Sequence
 from typing import Final
 
-from core.controls.control_names import shown_name
+from core.controls.control_names import display_name
 from core.controls.registry import is_klartext
 from core.controls.write.contour_pass import CompensatedPass, PassToWrite
 from core.controls.write.iso_program import Frame, offsets
@@ -71,7 +71,7 @@ def control_program(
         return Refusal(written.findings, unit)
     style, notes = STYLE_OF_CONTROL.get(control), [*_for_the_operator(jobs, cuts, unit, control)]
     if style is not None and not style.comments and part.strip():
-        text = f"PART NAME {printable(part)} is not in the file: {shown_name(control)} has no comments."
+        text = f"PART NAME {printable(part)} is not in the file: {display_name(control)} has no comments."
         notes.append(Finding("PART_NAME", Severity.INFO, text, field="name"))
     return Posted(written.text, notes=(*notes, *written.notes))
 
@@ -84,7 +84,7 @@ def _for_the_operator(jobs: Sequence[Job], cuts: Sequence[PassToWrite], unit: Un
             "cut another contour. Post it again for such a tool."
         )
         yield Finding("LEFT_OUT", Severity.WARNING, text, lengths=(max(cut.diameter for cut in deleted),))
-    style, name = STYLE_OF_CONTROL.get(control), shown_name(control)
+    style, name = STYLE_OF_CONTROL.get(control), display_name(control)
     if (style is None or not style.writes_work_offset) and jobs[0].work_offset != 54:
         text = f"Work offset G{jobs[0].work_offset} cannot be written for {name}; set its origin on the control."
         yield Finding("WORK_OFFSET", Severity.WARNING, text)
@@ -114,7 +114,7 @@ def _header(
     compensates = any(isinstance(cut, CompensatedPass) for cut in cuts)
     compensation = "THE CONTROL COMPENSATES" if compensates else "NOTHING IS COMPENSATED"
     contour = "THE CONTOUR WITHOUT ITS DELETED SEGMENTS" if _with_deleted_segments(cuts) else "THE CONTOUR AS TYPED"
-    yield f"WRITTEN BY CUTCOMP FOR {shown_name(control)}: {contour}, {compensation}"
+    yield f"WRITTEN BY CUTCOMP FOR {display_name(control)}: {contour}, {compensation}"
     yield f"UNITS {'INCH' if unit is Unit.IN else 'MM'}"
     table = "" if is_klartext(control) else ": THE CONTROL'S TABLE MUST SAY THE SAME"
     yield from dict.fromkeys(f"TOOL {cut.tool} DIAMETER {length_text(cut.diameter, unit)}{table}" for cut in cuts)

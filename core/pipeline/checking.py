@@ -13,7 +13,7 @@ from typing import Final
 from core.controls import shop_rules
 from core.controls.compared_contours import ContourPair, Parting, contours
 from core.controls.compared_controls import Compared, OtherLanguage, compare
-from core.controls.control_names import shown_name
+from core.controls.control_names import display_name
 from core.controls.control_run import MAX_ALIKE, ControlRun, more_alike
 from core.controls.control_tools import ToolId, ToolTable, tool_id
 from core.controls.iso.execute import NO_LIBRARY
@@ -99,7 +99,7 @@ class Answer:
     @property
     def name(self) -> str:
         """The control's name as operators know it."""
-        return shown_name(self.control)
+        return display_name(self.control)
 
     @property
     def errors(self) -> bool:
@@ -258,7 +258,7 @@ def _compared(row: Compared | OtherLanguage, asked: Asked, text: bytes) -> Answe
     if not row.by:
         answer_row = _complete(_answer(row.run, row.results, (), shop=asked.shop), row.run, text, asked)
     else:
-        message = f"The program is in another control's language: only its contour was run, as {shown_name(row.by)} "
+        message = f"The program is in another control's language: only its contour was run, as {display_name(row.by)} "
         message += "reads it, with straight leads that cutcomp adds."
         answer_row = _answer(row.run, row.results, (_language(Severity.INFO, message),), shop=asked.shop)
         parts = f"its contour only{'; ' if parts else ''}{parts}"
@@ -359,7 +359,7 @@ def _outcome(
 
 def _parting(parting: Parting, of: str, unit: Unit) -> str:
     """Return where the paths part, their largest distance and its line; short enough for a line of the screen."""
-    where = f"differs from {shown_name(of)} from line {parting.line}"
+    where = f"differs from {display_name(of)} from line {parting.line}"
     return f"{where}, by {_length(parting.distance, unit)} at line {parting.farthest}"
 
 
@@ -386,7 +386,7 @@ def _move(move: Move, unit: Unit) -> dict[str, object]:
 
 def _parts_from(parting: Parting, of: str, unit: Unit) -> dict[str, object]:
     return {
-        "control": shown_name(of),
+        "control": display_name(of),
         "line": parting.line,
         "farthest_line": parting.farthest,
         "distance": from_mm(parting.distance, unit),

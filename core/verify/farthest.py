@@ -16,7 +16,7 @@ from typing import Final
 
 import numpy as np
 
-from core.geometry.distance import between, distance, farthest_places
+from core.geometry.distance import between, distance, farthest_fractions
 from core.geometry.nearby import changes
 from core.geometry.path import Floats, Points, Rows
 from core.geometry.piece_arrays import PieceArrays, at
@@ -149,7 +149,7 @@ def _bounds(pairs: Pairs, spans: _Spans) -> tuple[Floats, Floats]:
 def _within_span(piece: PieceArrays, near: PieceArrays, t: Floats) -> tuple[Floats, Floats]:
     """Return the largest distance to one nearest piece among the extremes inside the span `t` (2, m), and its fraction;
     0 and the span's start without an extreme."""
-    fractions = farthest_places(piece, near)
+    fractions = farthest_fractions(piece, near)
     inside = (fractions > t[0]) & (fractions < t[1])
     if not inside.any():
         return np.zeros(len(piece)), t[0]

@@ -9,7 +9,7 @@ from typing import Final
 
 import numpy as np
 
-from core.geometry.distance import between, foot, nearest_places
+from core.geometry.distance import between, foot, nearest_fractions
 from core.geometry.nearby import changes
 from core.geometry.path import Floats, Path, Rows, coordinates
 from core.geometry.piece_arrays import PieceArrays, at, blocks
@@ -75,7 +75,7 @@ def approaches(pairs: Pairs, rows: Rows, limit: Floats) -> tuple[Floats, Floats,
     for block in blocks(pairs.pieces.arcs[pairs.i[rows]], pairs.others.arcs[pairs.j[rows]]):
         pair = rows[block]
         pieces, others = pairs.pieces.take(pairs.i[pair]), pairs.others.take(pairs.j[pair])
-        fractions = nearest_places(pieces, others)
+        fractions = nearest_fractions(pieces, others)
         apart = measured(between(pieces, others, fractions))
         new = (fractions > 0.0) & (fractions < 1.0)
         # the first two are the ends

@@ -8,7 +8,7 @@ from typing import Final
 
 import numpy as np
 
-from core.geometry.distance import between, distance, nearest_places
+from core.geometry.distance import between, distance, nearest_fractions
 from core.geometry.nearby import changes, nearest_pairs
 from core.geometry.path import Flags, Floats, Path, Points, Rows
 from core.geometry.piece_arrays import PieceArrays, at, blocks
@@ -120,7 +120,7 @@ def _measured(pieces: PieceArrays, i: Rows, others: PieceArrays, j: Rows) -> tup
         middle = at(piece, np.full(len(rows), 0.5))
         from_piece[:, rows] = distance(other, np.array((piece.start, middle, piece.end)))
         from_other[:, rows] = distance(piece, np.array((other.start, other.end)))
-        least[rows] = between(piece, other, nearest_places(piece, other)).min(axis=0)
+        least[rows] = between(piece, other, nearest_fractions(piece, other)).min(axis=0)
     return least, from_piece, from_other
 
 

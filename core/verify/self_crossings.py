@@ -8,7 +8,7 @@ from typing import Final
 
 import numpy as np
 
-from core.geometry.distance import between, distance, foot, nearest_places
+from core.geometry.distance import between, distance, foot, nearest_fractions
 from core.geometry.nearby import near_pairs_within, sorted_pairs
 from core.geometry.path import Flags, Floats, Points, Rows
 from core.geometry.piece_arrays import PieceArrays, at, direction
@@ -51,7 +51,7 @@ def _meetings(surface: PieceArrays, i: Rows, j: Rows, *, closed: bool) -> SelfCr
     following = j == i + 1
     around = (i == 0) & (j == len(surface) - 1) if closed else np.zeros(len(i), np.bool_)
     piece, other = surface.take(i), surface.take(j)
-    fractions = np.vstack((nearest_places(piece, other), np.full(len(piece), 0.5)))
+    fractions = np.vstack((nearest_fractions(piece, other), np.full(len(piece), 0.5)))
     points = at(piece, fractions)
     met = (distance(other, points) <= JOINED) & _away(piece, other, fractions, points, following, around)
     k, pair = np.nonzero(met)

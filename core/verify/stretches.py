@@ -7,7 +7,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from core.geometry.distance import band_places, between
+from core.geometry.distance import band_fractions, between
 from core.geometry.path import Flags, Floats, Rows
 from core.geometry.piece_arrays import blocks
 from core.tolerance import ON_PATH
@@ -84,7 +84,7 @@ def within(pairs: Pairs, rows: Rows, limit: Floats) -> Parts:
 
 def _within(pairs: Pairs, rows: Rows, limit: Floats) -> Parts:
     pieces, others = pairs.pieces.take(pairs.i[rows]), pairs.others.take(pairs.j[rows])
-    fractions = band_places(pieces, others, limit)
+    fractions = band_fractions(pieces, others, limit)
     middles = (fractions[1:] + fractions[:-1]) / 2.0
     apart = measured(between(pieces, others, middles))
     part, pair = ((apart < limit) & (fractions[1:] > fractions[:-1])).nonzero()

@@ -8,7 +8,7 @@ from typing import Final
 
 import numpy as np
 
-from core.geometry.distance import band_places, feet, foot
+from core.geometry.distance import band_fractions, feet, foot
 from core.geometry.path import Flags, Floats, Path, Points, Rows
 from core.geometry.piece import Side, point_of
 from core.geometry.piece_arrays import PieceArrays, at, blocks
@@ -218,7 +218,7 @@ def _overshoot(pairs: Pairs, pair: Rows, ends: Floats, inward: Floats, radius: f
     """
     i, j, grant = pairs.i[pair], pairs.j[pair], pairs.grant[pair]
     piece, other = pairs.pieces.take(i), pairs.others.take(j)
-    fractions = np.concatenate((band_places(piece, other, np.full(len(pair), radius)), feet(piece, other)))
+    fractions = np.concatenate((band_fractions(piece, other, np.full(len(pair), radius)), feet(piece, other)))
     moved = (pairs.stations[i] + fractions * piece.length - ends) * inward
     widest = 2.0 * np.sqrt(2.0 * (radius + grant) * grant)
     least: Floats = np.where((moved > 0.0) & (moved < widest), moved, inf).min(axis=0)

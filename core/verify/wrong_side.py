@@ -83,7 +83,7 @@ def wrong_side(pairs: Pairs, hits: Gouging, surface: Sided, radius: float) -> tu
     index, t = np.arange(len(pairs.pieces)), np.full(len(pairs.pieces), 0.5)
     tested = (~(_near(pairs, radius) if surface.endless else _on_one_wall(pairs, hits, radius))).nonzero()[0]
     index, t = np.concatenate((index, tested, tested)), np.concatenate((t, np.zeros(len(tested)), np.ones(len(tested))))
-    spots = np.concatenate((_gouge_places(hits, surface), parts.middle))
+    spots = np.concatenate((_gouge_positions(hits, surface), parts.middle))
     owners, shares = place(pairs.pieces, pairs.stations, spots)
     count, index, t = len(index), np.concatenate((index, owners)), np.concatenate((t, shares))
     on_part = _on_part_side(pairs, index, t, surface)
@@ -156,7 +156,7 @@ def _on_one_wall(pairs: Pairs, hits: Gouging, radius: float) -> Flags:
     return kept
 
 
-def _gouge_places(hits: Gouging, surface: Sided) -> Floats:
+def _gouge_positions(hits: Gouging, surface: Sided) -> Floats:
     """Return the places along the center path that represent the gouges; none for a closed, uncrossed contour."""
     if not len(hits) or (surface.endless and not surface.crossed):
         return np.zeros(0)

@@ -13,7 +13,7 @@ import pytest
 
 from app.cli.check import check
 from app.documents.nc_library import FolderLibrary
-from core.controls.control_names import shown_name
+from core.controls.control_names import display_name
 from core.controls.control_tools import ToolTable
 from core.pipeline.checking import Asked, answer_all
 
@@ -317,7 +317,7 @@ def test_an_empty_program_is_an_error(capsys: pytest.CaptureFixture[str], tmp_pa
             status, out, _ = output(capsys, file, "--control", control)
             assert status == 1
             assert "1:1  error    EMPTY" in out
-            assert f"{shown_name(control)}: has nothing to run" in out
+            assert f"{display_name(control)}: has nothing to run" in out
             assert "; 0 moves, " in out
         assert "runs" not in output(capsys, file, "--control", "all")[1].replace("that runs", "")
 

@@ -8,7 +8,7 @@ from pathlib import Path
 import pytest
 
 from app.cli.check import check
-from core.controls.control_names import shown_name
+from core.controls.control_names import display_name
 
 THREEBLOCK = """G70G90
 N10G0G90X-1.Y1.T1M6
@@ -92,7 +92,7 @@ def test_an_over_run_at_a_corner_is_reported_once_as_a_lead(
     assert over_run["severity"] == "info"
     assert "X 0.0000 Y 0.0000" in str(over_run["text"])
     assert status == 0, findings
-    assert f"{shown_name(control)}: runs;" in outcome
+    assert f"{display_name(control)}: runs;" in outcome
 
 
 BENT = """G21 G90 G17 G40
@@ -123,7 +123,7 @@ def test_an_over_run_is_a_warning_when_compensation_starts_a_move_earlier(
     assert str(over_run["text"]).startswith(text)
     assert {"GOUGE", "CROSSES"}.isdisjoint(rules(findings)), findings
     assert status == 0, findings
-    assert f"{shown_name(control)}: runs, 1 warning (OVER_RUN);" in outcome
+    assert f"{display_name(control)}: runs, 1 warning (OVER_RUN);" in outcome
 
 
 OPEN = """G21 G90 G17 G40
@@ -210,7 +210,7 @@ def test_an_over_run_past_the_start_corner_is_a_lead(
     assert over_run["severity"] == "info"
     assert {"GOUGE", "CROSSES", "UNCUT"}.isdisjoint(rules(findings)), findings
     assert status == 0, findings
-    assert f"{shown_name(control)}: runs;" in outcome
+    assert f"{display_name(control)}: runs;" in outcome
 
 
 def test_an_entry_that_nicks_the_corner_is_a_gouge_of_that_depth(

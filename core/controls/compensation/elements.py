@@ -9,7 +9,7 @@ from __future__ import annotations
 from math import atan2, hypot, pi, tan, tau
 from typing import Final, NamedTuple
 
-from core.geometry.carrier import Carrier, meeting_places
+from core.geometry.carrier import Carrier, meeting_points
 from core.geometry.piece import Point
 from core.tolerance import ROUNDING
 
@@ -144,7 +144,7 @@ def meetings(
     """Return every meeting of the offsets of two elements; none if an inside arc has no offset."""
     if not beyond_center and not (fits(first, offset) and fits(second, other)):
         return ()
-    return tuple((place.real, place.imag) for place in meeting_places(_carrier(first, offset), _carrier(second, other)))
+    return tuple((place.real, place.imag) for place in meeting_points(_carrier(first, offset), _carrier(second, other)))
 
 
 def _carrier(element: Element, offset: float) -> Carrier:

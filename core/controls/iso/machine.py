@@ -90,7 +90,7 @@ class Control(Recorder):
     def idle(self, block: Block) -> None:
         """Handle a block without motion under compensation, after its codes."""
 
-    def own_code(self, code: int, block: Block) -> None:
+    def maker_code(self, code: int, block: Block) -> None:
         """Handle a G code of this control alone, in tenths."""
 
     def takes_effect(self, _code: int, _block: Block) -> bool:
@@ -268,7 +268,7 @@ class Machine(ModalState):
             case CodeAction.LENGTH:
                 self._take_length(code.value, block)
             case CodeAction.OF_THIS_CONTROL:
-                self.control.own_code(code.value, block)
+                self.control.maker_code(code.value, block)
             case CodeAction.UNSUPPORTED:
                 text = f"cutcomp does not support G{code.value / 10:g}. Write out the moves that it makes or changes."
                 text = lathe_cycle(code.value, block.words) or text

@@ -276,7 +276,7 @@ class Fanuc(VectorQueue, Control):
         turns = self.machine.mode in _ARC_MODES and not {"I", "J", "K", "R"}.isdisjoint(block.words)
         return letters[0] in block.words or letters[1] in block.words or turns
 
-    def own_code(self, code: int, block: Block) -> None:
+    def maker_code(self, code: int, block: Block) -> None:
         """G39: request an arc around the corner, which ends square to the block's vector if it has one."""
         if not self.active:
             text = "G39 goes with compensation only. Write G41 or G42 before it."

@@ -150,7 +150,7 @@ class NineSeries(ElementQueue, Control):
         self.machine.compare_offset(radius, f"D{self.number}", block.line, block.column("DG"))
         return radius
 
-    def own_code(self, code: int, _: Block) -> None:
+    def maker_code(self, code: int, _: Block) -> None:
         """G39 and G39.1: round sharp outside corners by lines or by an arc."""
         self.rules = CornerRules(outside=Outside.MITER_OR_ARC if code == 391 else Outside.LINES)
 

@@ -121,7 +121,7 @@ class ThreeBlock(ElementQueue, Control):
             text = f"This control has tools 1 to 24; {number} is not one of them."
             self.log.stop("B19-TRANGE", text, block.line, block.column("T"))
 
-    def own_code(self, code: int, block: Block) -> None:
+    def maker_code(self, code: int, block: Block) -> None:
         """G45 and the G44 that ends it; G99 does not change the path."""
         if code == 450 and not self.ratio:
             text = "cutcomp assumes that G45 holds until G44; the manual does not say."

@@ -15,7 +15,7 @@ import numpy as np
 
 from core.controls.compared_contours import distances
 from core.controls.compensation.elements import sweep
-from core.controls.control_names import shown_name
+from core.controls.control_names import display_name
 from core.controls.control_run import ControlRun, Stretch
 from core.controls.control_tools import ToolTable
 from core.controls.moves import Moves
@@ -61,9 +61,9 @@ class Intended:
     leads: bool
 
     @property
-    def shown_control(self) -> str:
+    def control_name(self) -> str:
         """The control's name as operators know it."""
-        return shown_name(self.control)
+        return display_name(self.control)
 
     @property
     def text(self) -> str:
@@ -130,14 +130,14 @@ def different_move(made: ControlRun, intended: Intended) -> Finding | None:
         row = int(np.searchsorted(moves.lines, number, side="right")) - 1
         differs = bool(moves.rapid[row]) != (travel.feed is None) or int(moves.turns[row]) != travel.turn
         if differs and (int(moves.lines[row]) == number or travel.turn):
-            return not_written(f"{intended.shown_control} runs line {number} of the program as a different move.")
+            return not_written(f"{intended.control_name} runs line {number} of the program as a different move.")
         errors = np.abs(moves.points[row] - (travel.x, travel.y, travel.z))
         if travel.turn:
             center = np.abs(moves.centers[row, :2] - travel.center)
             errors = np.concatenate((errors, center, (_length_difference(moves, row, before, travel),)))
         # a comparison with NaN is false
         if not (errors <= intended.tolerance).all():
-            text = f"{intended.shown_control} ends line {number} of the program {{0}} off."
+            text = f"{intended.control_name} ends line {number} of the program {{0}} off."
             return not_written(text, lengths=(float(errors.max()),))
     return None
 
@@ -159,7 +159,7 @@ def _stopped(made: ControlRun, intended: Intended) -> tuple[Finding, ...]:
 
 
 def _alarm(finding: Finding, intended: Intended) -> Finding:
-    text = f"{intended.shown_control} stops at line {finding.line} of the program, rule {finding.code}: {finding.text}"
+    text = f"{intended.control_name} stops at line {finding.line} of the program, rule {finding.code}: {finding.text}"
     return not_written(text, intended.segment(finding.line), lengths=finding.lengths)
 
 
@@ -195,7 +195,7 @@ def compare_path(made: Path, cut: CompensatedPass, intended: Intended) -> Findin
     refused = _damage(made, inner, cut, intended, differs=not apart <= tolerance)
     if refused is not None or apart <= tolerance:
         return refused
-    text = f"{intended.shown_control} takes corners differently, by up to {{0}}. It does not gouge or leave more."
+    text = f"{intended.control_name} takes corners differently, by up to {{0}}. It does not gouge or leave more."
     return Finding("DIFFERS", Severity.WARNING, text, intended.segment(number), lengths=(apart,))
 
 
@@ -232,11 +232,9 @@ def _damage(made: Path, inner: Path, cut: CompensatedPass, intended: Intended, *
         return None
     worst = max(verdicts, key=lambda verdict: verdict.depth)
     if worst.depth > intended.tolerance or (differs and worst.wrong_side):
-        text = f"{intended.shown_control} compensates this differently, and its path gouges the part by {{0}}."
+        text = f"{intended.control_name} compensates this differently, and its path gouges the part by {{0}}."
         if not differs:
-            text = (
-                f"The move into the cut or out of it, as {intended.shown_control} needs it, gouges the part by {{0}}."
-            )
+            text = f"The move into the cut or out of it, as {intended.control_name} needs it, gouges the part by {{0}}."
         segment = worst.gouges[0].surface_number if worst.gouges else None
         return not_written(text, segment, lengths=(worst.depth,))
     planned = judge(contour, side, cut.diameter / 2, cut.compensated.whole) if differs else verdicts[0]
@@ -244,7 +242,7 @@ def _damage(made: Path, inner: Path, cut: CompensatedPass, intended: Intended, *
         return not_written("The block's path cannot be judged.")
     if (more := _length_left(verdicts[0], intended) - _length_left(planned, intended)) > intended.tolerance:
         what = "compensates this differently, and its path leaves {0} more of the contour uncut"
-        text = f"{intended.shown_control} {what}."
+        text = f"{intended.control_name} {what}."
         return not_written(text, verdicts[0].uncut[0].first_number, lengths=(more,))
     return None
 

@@ -21,7 +21,7 @@ from core.geometry import construct
 from core.geometry.construct import NotDetermined, OnePoint, OutOfReach
 from core.geometry.piece import Arc, Piece, Point, Turn
 from core.program.fields import Form, field_of
-from core.program.solve.line import points_of, shown_angle
+from core.program.solve.line import angle_text, points_of
 from core.program.solve.measured import measured
 from core.program.solve.rules import Given, Known, Outcome, Rule, Task, contradiction, either, fault
 from core.tolerance import AGREES, ARC_RADII, CLOSED, JOINED
@@ -235,7 +235,7 @@ def _disagreement(piece: Piece, name: str, value: float) -> Finding | None:
     assert isinstance(piece, Arc)
     solved = measured(piece)[name]
     if name == "sweep":
-        text = f"SWEEP ANGLE is {shown_angle(value)}, but {shown_angle(solved)}"
+        text = f"SWEEP ANGLE is {angle_text(value)}, but {angle_text(solved)}"
         return None if _turns(piece, value) else fault("CONTRADICTION", text, name)
     if abs(solved - value) <= ARC_RADII:
         return None
@@ -264,7 +264,7 @@ def circle_finding(arc: Arc, given: Given) -> Finding | None:
     gap = dist(arc.start, arc.end)
     if gap > (CLOSED if "sweep" in given.known else DOUBTFUL_GAP) or arc.length <= JOINED:
         return None
-    text = f"The arc ends only {{value~0}} from its start and turns {shown_angle(abs(arc.sweep))} degrees. "
+    text = f"The arc ends only {{value~0}} from its start and turns {angle_text(abs(arc.sweep))} degrees. "
     text += "Enter SWEEP ANGLE 360 if the full circle is meant."
     return Finding("SHORT_ARC", Severity.WARNING, text, field="sweep", value=gap, lengths=(0.0,))
 
@@ -274,7 +274,7 @@ def _full_circle_finding(given: Given) -> Finding | None:
     known, (x, y) = given.known, given.start
     sweep, gap = known.get("sweep"), dist(given.start, (known.get("x_end", x), known.get("y_end", y)))
     if sweep is not None and sweep != tau:
-        text = f"SWEEP ANGLE {shown_angle(sweep)} ends at the arc's start: it is the full circle. Enter 360."
+        text = f"SWEEP ANGLE {angle_text(sweep)} ends at the arc's start: it is the full circle. Enter 360."
         return Finding("FULL_CIRCLE", Severity.WARNING, text, field="sweep")
     if gap <= JOINED or (sweep is not None and given.back):
         return None

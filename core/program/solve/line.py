@@ -43,10 +43,10 @@ def _along(axis: int, given: Given) -> Outcome | None:
         case construct.NotDetermined() if "length" in known or abs(value - start[axis]) <= ARC_RADII:
             return None
         case construct.NotDetermined():
-            text = f"XY ANGLE {shown_angle(angle)} holds {'XY'[axis]} at {{0~1}}: it never reaches {label} {{1~0}}"
+            text = f"XY ANGLE {angle_text(angle)} holds {'XY'[axis]} at {{0~1}}: it never reaches {label} {{1~0}}"
             return contradiction(f"{text}. Correct one of them.", "angle", start[axis], value)
         case OppositeDirection():
-            text = f"XY ANGLE {shown_angle(angle)} leads away from {label} {{0}}. Correct one of them."
+            text = f"XY ANGLE {angle_text(angle)} leads away from {label} {{0}}. Correct one of them."
             return contradiction(text, "angle", value)
         case _:
             assert_never(end)
@@ -83,7 +83,7 @@ def kept_axis(segment: LineSegment) -> int | None:
     return 1 - _END.index(typed[0])
 
 
-def shown_angle(angle: float) -> str:
+def angle_text(angle: float) -> str:
     """Format an angle as the form shows it."""
     return show(degrees(angle), Kind.ANGLE, Unit.IN)
 
@@ -100,7 +100,7 @@ def _disagreement(piece: Piece, name: str, value: float) -> Finding | None:
         off = abs(actual - value)
         if off <= AGREES or piece.length * off <= ARC_RADII:
             return None
-        return fault("CONTRADICTION", f"XY ANGLE is {shown_angle(value)}, but {shown_angle(actual)}", name)
+        return fault("CONTRADICTION", f"XY ANGLE is {angle_text(value)}, but {angle_text(actual)}", name)
     if abs(solved - value) <= ARC_RADII:
         return None
     return fault("CONTRADICTION", f"{LINE_TASK.label(name)} is {{0~1}}, but {{1~0}}", name, value, solved)

@@ -10,12 +10,12 @@ import shapely
 from hypothesis import given, settings
 
 from core.geometry.distance import (
-    band_places,
+    band_fractions,
     between,
     distance,
-    farthest_places,
+    farthest_fractions,
     foot,
-    nearest_places,
+    nearest_fractions,
     on_circle,
     on_line,
 )
@@ -96,8 +96,8 @@ def dense(piece: Piece) -> Floats:
 @given(paths(most=3), paths(most=3))
 def test_extremes_are_among_the_places(first: Path, second: Path) -> None:
     piece, other = pairs(first, second)
-    least = between(piece, other, nearest_places(piece, other)).min(axis=0)
-    inner = between(piece, other, farthest_places(piece, other)).max(axis=0)
+    least = between(piece, other, nearest_fractions(piece, other)).min(axis=0)
+    inner = between(piece, other, farthest_fractions(piece, other)).max(axis=0)
     ends = between(piece, other, np.vstack((np.zeros(len(piece)), np.ones(len(piece))))).max(axis=0)
     for k in range(len(piece)):
         mine, theirs = first[k // len(second)], second.part(k % len(second), k % len(second) + 1)
@@ -112,7 +112,7 @@ def test_extremes_are_among_the_places(first: Path, second: Path) -> None:
 def test_between_band_places_the_distance_stays_on_one_side(first: Path, second: Path) -> None:
     piece, other = pairs(first, second)
     reach = np.full(len(piece), 0.77)
-    places = band_places(piece, other, reach)
+    places = band_fractions(piece, other, reach)
     assert np.all(np.diff(places, axis=0) >= 0.0)
     low, high = places[:-1], places[1:]
     for share in (0.1, 0.5, 0.9):
@@ -126,12 +126,12 @@ def test_between_band_places_the_distance_stays_on_one_side(first: Path, second:
 @given(paths(most=4), paths(most=4))
 def test_shapely_finds_the_same_distance_on_chords(first: Path, second: Path) -> None:
     piece, other = pairs(first, second)
-    least = between(piece, other, nearest_places(piece, other)).min()
+    least = between(piece, other, nearest_fractions(piece, other)).min()
     strings = [shapely.LineString(np.concatenate([dense(piece) for piece in path])) for path in (first, second)]
     assert shapely.distance(*strings) == pytest.approx(least, abs=1e-4)
 
 
 def test_places_are_on_the_piece() -> None:
     piece, other = pairs(lines((0, 0), (4, 0)), circle((2.0, 0.0), 1.0))
-    assert sorted(at(piece, nearest_places(piece, other)).real[:, 0].tolist())[0] == 0.0
-    assert {round(x, 9) for x in at(piece, nearest_places(piece, other)).real[:, 0].tolist()} >= {0.0, 1.0, 3.0, 4.0}
+    assert sorted(at(piece, nearest_fractions(piece, other)).real[:, 0].tolist())[0] == 0.0
+    assert {round(x, 9) for x in at(piece, nearest_fractions(piece, other)).real[:, 0].tolist()} >= {0.0, 1.0, 3.0, 4.0}

@@ -8,7 +8,7 @@ import pytest
 
 from core.comp.compensate import compensate
 from core.comp.compensated import CenterPath
-from core.controls.control_names import shown_name
+from core.controls.control_names import display_name
 from core.controls.write.contour_pass import CenterMove, CompensatedPass, PassToWrite, UncompensatedPass
 from core.finding import Finding, Severity
 from core.geometry.piece import Side
@@ -181,7 +181,8 @@ def test_a_work_offset_is_reported_for_a_control_without_work_offsets() -> None:
         )
         assert note.severity is Severity.WARNING
         assert (
-            note.text == f"Work offset G56 cannot be written for {shown_name(control)}; set its origin on the control."
+            note.text
+            == f"Work offset G56 cannot be written for {display_name(control)}; set its origin on the control."
         )
         assert not [finding for finding in posted(control).notes if finding.code == "WORK_OFFSET"]
     assert "WORK_OFFSET" not in [finding.code for finding in posted("linuxcnc", jobs=(square(work_offset=56),)).notes]

@@ -11,7 +11,7 @@ import numpy as np
 import pytest
 
 from app.documents.files import load
-from core.controls.control_names import shown_name
+from core.controls.control_names import display_name
 from core.controls.control_run import ControlRun
 from core.controls.control_tools import ToolTable
 from core.controls.judged_runs import judge_run, judged_findings
@@ -331,7 +331,7 @@ def test_an_arc_that_a_control_runs_as_a_full_circle_is_refused(
     part = derived_program(circling(0.001, unit, CutterComp.ON, Direction.CW))
     result = post_control_program(part, name="PART", control=control)
     assert isinstance(result, Refusal)
-    assert f"{shown_name(control)} ends line" in result.text
+    assert f"{display_name(control)} ends line" in result.text
 
 
 def test_a_work_offset_that_cannot_be_written_is_reported() -> None:

@@ -11,7 +11,7 @@ from core.finding import Finding, Severity
 from core.geometry.oriented import Circle, Locus, OrientedLine
 from core.geometry.piece import Point, Turn
 from core.program.fields import Form, field_of
-from core.program.solve.line import counted_like, shown_angle
+from core.program.solve.line import angle_text, counted_like
 from core.program.solve.run.branch import Branch
 from core.program.solve.run.typed_run import Element, Run
 from core.tolerance import ARC_RADII
@@ -97,7 +97,7 @@ def angle_differs(run: Run, index: int, name: str, typed: float, actual: float) 
     element = run.elements[index]
     if name != "sweep":
         actual = counted_like(actual, typed)
-    given, other = shown_angle(typed), shown_angle(actual)
+    given, other = angle_text(typed), angle_text(actual)
     if given == other:
         given, other = f"{degrees(typed):.6f}", f"{degrees(actual):.6f}"
     text = f"{label(element, name)} is {given}, but {other} by {_rest(run, index)}: correct or blank one of them."
@@ -136,10 +136,10 @@ def not_parallel(run: Run, index: int, wanted: float, actual: float) -> Finding:
     if cos(actual - wanted) < 0.0:
         wanted += pi
     if (typed := element.known.get("angle")) is not None:
-        given, other = shown_angle(typed), shown_angle(counted_like(wanted, typed))
+        given, other = angle_text(typed), angle_text(counted_like(wanted, typed))
         text = f"XY ANGLE is {given}, but {other} by PARALLEL TO: correct or blank one of them."
     else:
-        given, other = shown_angle(actual % tau), shown_angle(wanted % tau)
+        given, other = angle_text(actual % tau), angle_text(wanted % tau)
         text = f"XY ANGLE comes to {given}, but {other} by PARALLEL TO: correct the end, or blank PARALLEL TO."
     return _fault("CONTRADICTION", text, element, "parallel")
 
