@@ -19,7 +19,7 @@ if TYPE_CHECKING:
     import argparse
 
     from core.advice.lookahead_table import Table
-    from core.output.nc import Refusal
+    from core.controls.write.written_program import Refusal
     from core.pipeline.derived import Derived, DerivedBlock
 
 STANDARD_STREAM: Final = "-"
@@ -125,7 +125,7 @@ def _annotated(block: DerivedBlock, table: Table | None, program: Program) -> Ta
 def post(options: argparse.Namespace) -> int:
     """Run `cutcomp post`, which writes the NC text or says why there is none."""
     from app.session.posting import refusals
-    from core.output.nc import Posted
+    from core.controls.write.written_program import Posted
     from core.pipeline.post import post_center_path, post_control_program
     from core.pipeline.unit_question import unit_question
 

@@ -17,7 +17,7 @@ from core.units import located_sentence, sentence
 
 if TYPE_CHECKING:
     from core.controls.control_names import ControlChoice
-    from core.output.nc import Refusal
+    from core.controls.write.written_program import Refusal
 
 CENTER_PATH: Final = "center path"
 """The choice without a control: the tool's center path, which needs no compensation by the control."""
@@ -52,7 +52,7 @@ def nc_text(
 
     `name` is the file's name; `override` is the phrase the operator typed to post a path that gouges.
     """
-    from core.output.nc import Posted
+    from core.controls.write.written_program import Posted
     from core.output.objections import OVERRIDABLE_CODES, OVERRIDE_PHRASE
     from core.pipeline.derive import derive
     from core.pipeline.post import post_center_path, post_control_program

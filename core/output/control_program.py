@@ -6,6 +6,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
+from dataclasses import replace
 from typing import Final
 
 from core.controls.control_names import display_name
@@ -13,10 +14,10 @@ from core.controls.registry import is_klartext
 from core.controls.write.contour_pass import CompensatedPass, PassToWrite
 from core.controls.write.iso_program import Frame, offsets
 from core.controls.write.iso_style import STYLE_OF_CONTROL, Radius
-from core.controls.write.written_program import NotWritten, write_program
+from core.controls.write.written_program import Posted, Refusal, write_program
 from core.finding import Finding, Severity
 from core.output.grid import Grid, length_text
-from core.output.nc import Posted, Refusal, comments, program_titles
+from core.output.nc import comments, program_titles
 from core.output.objections import posting_errors
 from core.output.passes import Job, level_floor
 from core.program.model import Coolant
@@ -67,13 +68,13 @@ def control_program(
     short_name = "".join(sign if sign.isascii() and (sign.isalnum() or sign in "-_") else "-" for sign in name)[:24]
     frame = Frame(unit, jobs[0].work_offset)
     written = write_program(cuts, control, frame, short_name or "PART", remarks)
-    if isinstance(written, NotWritten):
-        return Refusal(written.findings, unit)
+    if isinstance(written, Refusal):
+        return written
     style, notes = STYLE_OF_CONTROL.get(control), [*_for_the_operator(jobs, cuts, unit, control)]
     if style is not None and not style.comments and part.strip():
         text = f"PART NAME {printable(part)} is not in the file: {display_name(control)} has no comments."
         notes.append(Finding("PART_NAME", Severity.INFO, text, field="name"))
-    return Posted(written.text, notes=(*notes, *written.notes))
+    return replace(written, notes=(*notes, *written.notes))
 
 
 def _for_the_operator(jobs: Sequence[Job], cuts: Sequence[PassToWrite], unit: Unit, control: str) -> Iterator[Finding]:

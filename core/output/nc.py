@@ -18,6 +18,7 @@ from typing import Final
 
 from core.controls.write.contour_pass import CenterMove
 from core.controls.write.iso_program import CORNER_TOLERANCE, speed_text
+from core.controls.write.written_program import Posted, Refusal
 from core.finding import Finding
 from core.geometry.piece import Arc, Turn
 from core.output.grid import EXTRA_CENTER_DECIMALS, Grid, arc_parts, feed_text, length_text
@@ -98,28 +99,6 @@ class _MoveWriter:
         if axes:
             yield f"{word}{axes}{center}{f' F{feed}' if feed != self.feed else ''}"
             self.feed = feed
-
-
-@dataclass(frozen=True, slots=True)
-class Posted:
-    """NC text, the errors that were overridden to get it, and notes for the operator."""
-
-    text: str
-    overridden: tuple[Finding, ...] = ()
-    notes: tuple[Finding, ...] = ()
-
-
-@dataclass(frozen=True, slots=True)
-class Refusal:
-    """Why nothing was posted; lengths in `text` are in `unit`."""
-
-    findings: tuple[Finding, ...]
-    unit: Unit
-
-    @property
-    def text(self) -> str:
-        """Every reason as a sentence, with its block and its segment."""
-        return " ".join(located_sentence(finding, self.unit) for finding in self.findings)
 
 
 def center_path_program(

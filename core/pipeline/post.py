@@ -7,11 +7,12 @@ from math import pi
 
 from core.comp.compensated import Compensated
 from core.controls.write.contour_pass import CenterMove, CompensatedPass, PassToWrite, UncompensatedPass
+from core.controls.write.written_program import Posted, Refusal
 from core.finding import Finding, Severity
 from core.geometry.construct import rotated
 from core.geometry.piece import Arc, Turn
 from core.output.control_program import control_program, control_program_errors
-from core.output.nc import Posted, Refusal, center_path_program
+from core.output.nc import center_path_program
 from core.output.passes import Job, Pass, passes
 from core.pipeline.derived import Derived, DerivedBlock
 from core.pipeline.jobs import jobs

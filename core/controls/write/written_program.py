@@ -25,7 +25,7 @@ from core.controls.write.iso_style import STYLE_OF_CONTROL, IsoStyle
 from core.controls.write.lead_moves import ProtectedContour, clear_leads, merged, with_blends
 from core.controls.write.read_back import ComparedPaths, Intended, read_back
 from core.finding import Finding, Severity
-from core.units import to_mm
+from core.units import Unit, located_sentence, to_mm
 
 Remarks = Callable[[Sequence[Finding]], Sequence[str]]
 """A function that makes a program's first lines from the notes on it."""
@@ -35,32 +35,37 @@ WRITTEN_AGAIN: Final = 2
 
 
 @dataclass(frozen=True, slots=True)
-class WrittenProgram:
-    """A program that its control has confirmed, and the notes on it."""
+class Posted:
+    """NC text, the errors that were overridden to get it, and notes for the operator."""
 
     text: str
+    overridden: tuple[Finding, ...] = ()
     notes: tuple[Finding, ...] = ()
 
 
 @dataclass(frozen=True, slots=True)
-class NotWritten:
-    """Why there is no program."""
+class Refusal:
+    """Why nothing was posted; lengths in `text` are in `unit`."""
 
     findings: tuple[Finding, ...]
+    unit: Unit
+
+    @property
+    def text(self) -> str:
+        """Every reason as a sentence, with its block and its segment."""
+        return " ".join(located_sentence(finding, self.unit) for finding in self.findings)
 
 
 def write_program(
     cuts: Sequence[PassToWrite], control: str, frame: Frame, name: str, remarks: Remarks
-) -> WrittenProgram | NotWritten:
+) -> Posted | Refusal:
     """Return the program for a control, by full name; `remarks` makes its first lines from the notes on it."""
     if is_klartext(control):
         return _klartext(cuts, control, frame, name, remarks)
     return _iso(cuts, control, frame, remarks)
 
 
-def _klartext(
-    cuts: Sequence[PassToWrite], control: str, frame: Frame, name: str, remarks: Remarks
-) -> WrittenProgram | NotWritten:
+def _klartext(cuts: Sequence[PassToWrite], control: str, frame: Frame, name: str, remarks: Remarks) -> Posted | Refusal:
     digit = to_mm(10.0 ** -klartext_program.KLARTEXT_DECIMALS[frame.unit], frame.unit)
 
     def write(notes: Sequence[Finding]) -> Intended | Finding:
@@ -69,10 +74,10 @@ def _klartext(
             return lines
         return Intended(control, lines, tuple(cuts), ToolTable(), frame.unit, digit, leads=False)
 
-    return _confirmed(write)
+    return _confirmed(write, frame.unit)
 
 
-def _iso(cuts: Sequence[PassToWrite], control: str, frame: Frame, remarks: Remarks) -> WrittenProgram | NotWritten:
+def _iso(cuts: Sequence[PassToWrite], control: str, frame: Frame, remarks: Remarks) -> Posted | Refusal:
     style = STYLE_OF_CONTROL[control]
     led: dict[Compensated, PassWithLeads | Finding] = {}
     runs, refusals = list[PassWithLeads | UncompensatedPass](), dict[Finding, None]()
@@ -89,14 +94,14 @@ def _iso(cuts: Sequence[PassToWrite], control: str, frame: Frame, remarks: Remar
         else:
             runs.append(replace(run, contour_pass=cut))
     if refusals:
-        return NotWritten(tuple(refusals))
+        return Refusal(tuple(refusals), frame.unit)
     digit = to_mm(10.0 ** -style.digits(frame.unit), frame.unit)
 
     def write(notes: Sequence[Finding]) -> Intended:
         lines = iso_program.write_iso(runs, style, frame, remarks(notes))
         return Intended(control, lines, tuple(cuts), tools_of(cuts, style), frame.unit, digit, leads=True)
 
-    return _confirmed(write)
+    return _confirmed(write, frame.unit)
 
 
 def _with_clear_leads(cut: CompensatedPass, style: IsoStyle) -> PassWithLeads | Finding:
@@ -119,18 +124,18 @@ def _with_clear_leads(cut: CompensatedPass, style: IsoStyle) -> PassWithLeads | 
     return PassWithLeads(cut, compensated.side, shape, leads[0], first.corner, leads[1])
 
 
-def _confirmed(write: Callable[[Sequence[Finding]], Intended | Finding]) -> WrittenProgram | NotWritten:
+def _confirmed(write: Callable[[Sequence[Finding]], Intended | Finding], unit: Unit) -> Posted | Refusal:
     """Return the program, with the notes in it, once its control confirms it."""
     notes: tuple[Finding, ...] = ()
     compared: ComparedPaths = {}
     for _ in range(WRITTEN_AGAIN):
         intended = write(notes)
         if isinstance(intended, Finding):
-            return NotWritten((intended,))
+            return Refusal((intended,), unit)
         answer = read_back(intended, compared)
         if errors := tuple(finding for finding in answer if finding.severity is Severity.ERROR):
-            return NotWritten(errors)
+            return Refusal(errors, unit)
         if answer == notes:
             break
         notes = answer
-    return WrittenProgram(intended.text, notes)
+    return Posted(intended.text, notes=notes)

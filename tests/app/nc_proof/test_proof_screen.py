@@ -29,9 +29,9 @@ from app.session.work import Work
 from app.widgets.drawing import Drawing
 from app.widgets.status import Status
 from core.controls.control_tools import CutterTool, ToolTable
+from core.controls.write.written_program import Posted
 from core.draw.scene import Style
 from core.finding import Severity
-from core.output.nc import Posted
 from core.pipeline.checking import Asked
 from core.pipeline.derive import derive
 from core.pipeline.nc_proof import cutter_at_line

@@ -24,7 +24,7 @@ from core.controls.write.read_back import (
     read_back,
     same_pieces,
 )
-from core.controls.write.written_program import NotWritten, WrittenProgram, write_program
+from core.controls.write.written_program import Posted, Refusal, write_program
 from core.finding import Finding, Severity
 from core.geometry.path import EMPTY, Path
 from core.geometry.piece import Arc, Piece, Side, Turn
@@ -58,11 +58,11 @@ def test_a_square_reads_back_or_is_refused_for_its_corners(control: str, side: S
     square = cut(squared(side, overlap=overlap))
     written = write(control, square)
     if side is Side.LEFT and control in ("rosettacnc:nist", "rosettacnc:easy"):
-        assert isinstance(written, NotWritten)
+        assert isinstance(written, Refusal)
         assert "rule C6" in written.findings[0].text
         assert written.findings[0].segment == 2.0
         return
-    assert isinstance(written, WrittenProgram), written
+    assert isinstance(written, Posted), written
     run = made_by(control, written.text, square)
     (stretch,) = run.stretches
     path = run.moves.part(stretch.first, stretch.last).path()
@@ -77,7 +77,7 @@ def test_a_square_reads_back_or_is_refused_for_its_corners(control: str, side: S
 
 def test_a_note_gives_the_distance_of_mitered_corners() -> None:
     written = write("nine-series:a", cut(squared(Side.RIGHT)))
-    assert isinstance(written, WrittenProgram)
+    assert isinstance(written, Posted)
     assert written.notes[0].lengths[0] / INCH == pytest.approx(0.25 * (sqrt(2) - 1), abs=1e-4)
     assert written.notes[0].segment in (1.0, 2.0, 3.0, 4.0)
 
@@ -97,7 +97,7 @@ def test_arcs_and_a_full_circle_read_back(control: str, side: Side) -> None:
         compensate(circle, side, 5.0, 3, closed=True, blend=2.0, overlap=4.0),
     ):
         written = write_program([cut(contour)], control, Frame(Unit.MM), "PART", lambda _: ())
-        assert isinstance(written, WrittenProgram), written
+        assert isinstance(written, Posted), written
         assert not written.notes
 
 
@@ -241,7 +241,7 @@ def test_random_contours_read_back_or_are_refused_with_a_reason(
     if not len(compensated.path) or bool(compensated.bridged.any()):
         return
     result = write(control, cut(compensated, depth=-0.2))
-    if isinstance(result, NotWritten):
+    if isinstance(result, Refusal):
         assert all(len(finding.text) > 20 for finding in result.findings)
         assert result.findings
         return

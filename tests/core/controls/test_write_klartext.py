@@ -18,7 +18,7 @@ from core.controls.write.contour_pass import CompensatedPass
 from core.controls.write.iso_program import Frame
 from core.controls.write.klartext_program import write_klartext
 from core.controls.write.read_back import MIN_TOLERANCE
-from core.controls.write.written_program import NotWritten, WrittenProgram, write_program
+from core.controls.write.written_program import Posted, Refusal, write_program
 from core.geometry.path import Path
 from core.geometry.piece import Arc, Line, Piece, Point, Side, Turn
 from core.units import Unit
@@ -36,15 +36,15 @@ def cut(
     )  # fmt: skip
 
 
-def write(compensated: Compensated, unit: Unit = Unit.MM) -> str | NotWritten:
+def write(compensated: Compensated, unit: Unit = Unit.MM) -> str | Refusal:
     """The program of one run, without remarks."""
     return written([cut(compensated)], unit)
 
 
-def written(cuts: list[CompensatedPass], unit: Unit = Unit.MM) -> str | NotWritten:
+def written(cuts: list[CompensatedPass], unit: Unit = Unit.MM) -> str | Refusal:
     """The program of some runs."""
     found = write_program(cuts, "klartext", Frame(unit), "PART", lambda _: ())
-    return found.text if isinstance(found, WrittenProgram) else found
+    return found.text if isinstance(found, Posted) else found
 
 
 def outline(*points: Point) -> Path:
@@ -171,7 +171,7 @@ def test_a_path_by_another_rule_is_not_written() -> None:
     notch = outline(*((x * 25.4, y * 25.4) for x, y in points))
     for lookahead in (2, 3):
         refusal = write(compensate(notch, Side.LEFT, 6.35, lookahead, closed=False))
-        assert isinstance(refusal, NotWritten)
+        assert isinstance(refusal, Refusal)
         assert [finding.code for finding in refusal.findings] == ["NOTWRITTEN"]
 
 

@@ -17,7 +17,7 @@ from core.controls.write.contour_pass import (
     path_finish,
     programmed_elements,
 )
-from core.controls.write.written_program import WrittenProgram
+from core.controls.write.written_program import Posted
 from core.finding import Finding
 from core.geometry.path import Path
 from core.geometry.piece import Arc, Side, Turn
@@ -134,7 +134,7 @@ def test_an_entry_that_would_gouge_without_a_blend_is_refused(control: str) -> N
     refusal = refused(control, cut(squared(Side.LEFT, blend=0.0)))
     assert "BLEND OFFSET" in refusal.text
     assert refusal.lengths[0] > 0.0
-    assert isinstance(write("threeblock", cut(squared(Side.LEFT, blend=0.0))), WrittenProgram)
+    assert isinstance(write("threeblock", cut(squared(Side.LEFT, blend=0.0))), Posted)
 
 
 def test_a_small_pocket_gets_a_shorter_entry() -> None:
@@ -272,5 +272,5 @@ def test_every_control_makes_the_moves_without_compensation(control: str) -> Non
 def test_remarks_are_written_for_controls_that_read_comments(control: str) -> None:
     note = "NOTE" if control == "klartext" else "(NOTE)"
     written = write(control, uncompensated(), remarks=(note,))
-    assert isinstance(written, WrittenProgram), written
+    assert isinstance(written, Posted), written
     assert written.text.count("NOTE") == (control != "threeblock")

@@ -11,7 +11,7 @@ from core.controls.registry import names, run
 from core.controls.write.contour_pass import CompensatedPass, PassToWrite
 from core.controls.write.iso_program import Frame, tools_of
 from core.controls.write.iso_style import STYLE_OF_CONTROL
-from core.controls.write.written_program import NotWritten, WrittenProgram, write_program
+from core.controls.write.written_program import Posted, Refusal, write_program
 from core.finding import Finding
 from core.geometry.path import Path
 from core.geometry.piece import Line as Straight
@@ -47,14 +47,14 @@ def cut(one: Compensated, *, tool: int = 1, stock: float = 0.0, depth: float = -
     )  # fmt: skip
 
 
-def write(control: str, *cuts: PassToWrite, remarks: tuple[str, ...] = ()) -> WrittenProgram | NotWritten:
+def write(control: str, *cuts: PassToWrite, remarks: tuple[str, ...] = ()) -> Posted | Refusal:
     """The program in inches."""
     return write_program(cuts, control, Frame(Unit.IN), "PART", lambda _: remarks)
 
 
 def text_of(control: str, *cuts: PassToWrite) -> str:
     found = write(control, *cuts)
-    assert isinstance(found, WrittenProgram), found
+    assert isinstance(found, Posted), found
     return found.text
 
 
@@ -72,5 +72,5 @@ def made_by(control: str, text: str, *cuts: PassToWrite) -> ControlRun:
 
 def refused(control: str, *cuts: CompensatedPass) -> Finding:
     found = write(control, *cuts)
-    assert isinstance(found, NotWritten), found
+    assert isinstance(found, Refusal), found
     return found.findings[0]

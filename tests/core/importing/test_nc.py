@@ -12,12 +12,12 @@ import pytest
 
 from core.controls.compared_contours import apart
 from core.controls.control_tools import CutterTool, ToolTable
+from core.controls.write.written_program import Posted
 from core.geometry.path import Path as GeometryPath
 from core.geometry.piece import Piece, Side
 from core.importing.nc import read_nc
 from core.importing.nc_contour import CenterPathTool, NcError, NcProgram, nc_blocks
 from core.importing.segments import DoesNotFitError
-from core.output.nc import Posted
 from core.pipeline.derive import derive
 from core.pipeline.derived import Derived
 from core.pipeline.post import post_center_path, post_control_program

@@ -15,13 +15,13 @@ import pytest
 
 from core.comp.best_path.best_path import best_path
 from core.controls.control_tools import CutterTool, ToolTable
+from core.controls.write.written_program import Posted
 from core.geometry.path import Path
 from core.geometry.piece import Arc, Line, Piece, Point, Side, Turn
 from core.importing.contour import Contour, fitted_contour
 from core.importing.nc import read_nc
 from core.importing.nc_contour import nc_blocks
 from core.importing.segments import block_of, with_contours
-from core.output.nc import Posted
 from core.pipeline.derive import derive
 from core.pipeline.post import post_control_program
 from core.program.model import Number, Program, Tool

@@ -10,10 +10,10 @@ from core.comp.compensate import compensate
 from core.comp.compensated import CenterPath
 from core.controls.control_names import display_name
 from core.controls.write.contour_pass import CenterMove, CompensatedPass, PassToWrite, UncompensatedPass
+from core.controls.write.written_program import Posted, Refusal
 from core.finding import Finding, Severity
 from core.geometry.piece import Side
 from core.output.control_program import control_program, control_program_errors
-from core.output.nc import Posted, Refusal
 from core.output.passes import Floor, Job
 from core.program.model import Coolant
 from core.units import Unit

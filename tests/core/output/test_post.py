@@ -4,9 +4,10 @@ from itertools import pairwise
 import pytest
 
 from core.comp.compensated import CenterPath
+from core.controls.write.written_program import Posted, Refusal
 from core.finding import Finding, Severity
 from core.geometry.piece import Turn
-from core.output.nc import Posted, Refusal, center_path_program, comments
+from core.output.nc import center_path_program, comments
 from core.output.objections import OVERRIDE_PHRASE
 from core.output.passes import Cutter, Floor, Job, passes
 from core.program.model import Coolant

@@ -3,7 +3,8 @@
 from dataclasses import replace
 
 from core.comp.compensated import CenterPath
-from core.output.nc import Posted, center_path_program
+from core.controls.write.written_program import Posted
+from core.output.nc import center_path_program
 from core.output.passes import Cutter, Job
 from core.units import Unit
 from tests.core.output.jobs import INCH, job, polyline

@@ -13,8 +13,9 @@ from hypothesis import strategies as st
 
 from core.comp.compensated import CenterPath
 from core.controls.write.contour_pass import CenterMove
+from core.controls.write.written_program import Posted
 from core.geometry.piece import Arc, Line, Piece, Point, Turn
-from core.output.nc import Posted, center_path_program
+from core.output.nc import center_path_program
 from core.output.passes import Cutter, Job, passes
 from core.units import Unit
 from tests import rs274

@@ -16,10 +16,10 @@ from core.controls.control_run import ControlRun
 from core.controls.control_tools import ToolTable
 from core.controls.judged_runs import judge_run, judged_findings
 from core.controls.registry import NO_TOOLS, names, run
+from core.controls.write.written_program import Posted, Refusal
 from core.geometry.distance import distance
 from core.geometry.path import Path as Line
 from core.geometry.piece_arrays import at, piece_arrays
-from core.output.nc import Posted, Refusal
 from core.output.passes import passes
 from core.pipeline import post
 from core.pipeline.derive import derive
