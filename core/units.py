@@ -122,6 +122,11 @@ def decimals_shown(kind: Kind, unit: Unit) -> int:
             return 0
 
 
+def length_text(millimeters: float, unit: Unit) -> str:
+    """Format a length given in millimeters in program units, with the decimals of the form."""
+    return show(from_mm(millimeters, unit), Kind.LENGTH, unit)
+
+
 def plain(text: str) -> str:
     """Return a text with a question mark in place of each character that does not print."""
     return "".join(character if character.isprintable() else "?" for character in text)

@@ -12,7 +12,7 @@ from core.program.solve.reading import usable
 from core.program.solve.solved import Origin, Solved, SolvedBlock
 from core.program.tools import called_tool
 from core.tolerance import JOINED, LAST_PASS, ON_PATH
-from core.units import Kind, from_mm, show, to_mm
+from core.units import Kind, from_mm, length_text, show, to_mm
 
 PARTNERS: Final = (("point_x", "point_y"), ("point_y", "point_x"), ("point_dist", "point_x"), ("offset", "parallel"))
 """Fields of a LINE or an ARC, each with another without which it has no effect."""
@@ -143,11 +143,7 @@ def _no_clearance(solved: SolvedBlock, program: Program) -> Iterator[Finding]:
         consequences["peck_clearance"] = "between pecks it rapids right to the last floor"
     for name, consequence in consequences.items():
         value = _in_force(program, Form.PARAMETERS, name)
-        if (
-            value is None
-            or value > SMALLEST_VISIBLE_LENGTH
-            or show(from_mm(value, program.unit), Kind.LENGTH, program.unit).strip("0.")
-        ):
+        if value is None or value > SMALLEST_VISIBLE_LENGTH or length_text(value, program.unit).strip("0."):
             continue
         label = field_of(Form.PARAMETERS, name).label
         text = f"{label} is {{value}}: {consequence}. Enter {label} on PROGRAM PARAMETERS."

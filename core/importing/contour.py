@@ -11,7 +11,7 @@ from core.importing.arc_fitting import Fitted, fit_arcs
 from core.importing.joints import joined_chain, reversed_pieces
 from core.importing.nesting import box_of, signed_area
 from core.importing.nodes import KEY_DECIMALS, SAME_POINT
-from core.units import Kind, Unit, from_mm, show
+from core.units import Unit, length_text
 
 
 class ContourKind(StrEnum):
@@ -232,7 +232,7 @@ def fit_sentence(contour: Contour, unit: Unit) -> str:
     arcs = sum(isinstance(piece, Arc) for piece in fitted.pieces)
     lines = len(fitted.pieces) - arcs
     parts = [f"{count} {name}{'S' if count > 1 else ''}" for count, name in ((arcs, "ARC"), (lines, "LINE")) if count]
-    off = show(from_mm(fitted.off, unit), Kind.LENGTH, unit)
+    off = length_text(fitted.off, unit)
     return f"{fitted.before} lines -> {' and '.join(parts)}, off by {off}"
 
 

@@ -30,7 +30,7 @@ from core.importing.loops import Chain, chained
 from core.importing.nesting import box_of, boxes_of, containers, crosses_itself, crossings
 from core.importing.nodes import KEY_DECIMALS, SAME_POINT
 from core.program.fields import LARGEST_LENGTH
-from core.units import Kind, Unit, decimals_shown, from_mm, show
+from core.units import Kind, Unit, decimals_shown, from_mm, length_text, show
 
 JOIN_TOLERANCE: Final[Mapping[Unit, float]] = {Unit.IN: 0.0005 * 25.4, Unit.MM: 0.01}
 """Largest distance in millimeters of ends that are joined, by the program's unit; the operator may change it."""
@@ -320,7 +320,7 @@ def _with_open_gaps(contours: list[Contour], unit: Unit, tolerance: float) -> li
 
 def _with_gap(contour: Contour, gap: float, other: int, contours: Sequence[Contour], unit: Unit) -> Contour:
     number = contours[other].number
-    length = show(from_mm(gap, unit), Kind.LENGTH, unit)
+    length = length_text(gap, unit)
     target = "its other end" if number == contour.number else f"chain {number}"
     text = f"gap {length} to {target}: TOLERANCE {_rounded_up(gap, unit)} would join it"
     return replace(contour, open_gap=gap, open_gap_to=number, problems=(*contour.problems, text))

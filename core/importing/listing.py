@@ -16,7 +16,7 @@ from core.importing.contours import ContourList
 from core.importing.drawing import BSpline, Drawing, EllipseArc, Shape, counted
 from core.importing.nodes import SAME_POINT
 from core.tolerance import JOINED
-from core.units import Kind, Unit, decimals_shown, from_mm, show
+from core.units import Kind, Unit, decimals_shown, from_mm, length_text, show
 
 SAME_SIZE: Final = 1e-4
 """Step in millimeters to which radii are rounded to find equal circles."""
@@ -60,7 +60,7 @@ def cells_of(row: Row, unit: Unit) -> tuple[str, ...]:
     contour = row.first
     indent = "  " * contour.depth
     more = f"x {len(row.contours)}" if len(row.contours) > 1 else ""
-    length = show(from_mm(contour.length, unit), Kind.LENGTH, unit)
+    length = length_text(contour.length, unit)
     return (
         str(contour.number),
         f"{indent}{contour.kind}",
@@ -78,8 +78,8 @@ HEADINGS: Final = ("chain", "kind", "layer", "pieces", "length", "size", "")
 def size_of(contour: Contour, unit: Unit) -> str:
     """Return width and height, or the diameter of a circle, as text."""
     if contour.circle is not None:
-        return f"diameter {show(from_mm(2.0 * contour.circle, unit), Kind.LENGTH, unit)}"
-    width, height = (show(from_mm(size, unit), Kind.LENGTH, unit) for size in contour.size)
+        return f"diameter {length_text(2.0 * contour.circle, unit)}"
+    width, height = (length_text(size, unit) for size in contour.size)
     return f"{width} x {height}"
 
 
@@ -111,7 +111,7 @@ def sentences(listed: ContourList, unit: Unit) -> Iterator[str]:
     if drawing.hidden:
         layers = ", ".join(f"{count} on {layer}" for layer, count in drawing.hidden.items())
         yield f"frozen, off or invisible, not taken: {layers}."
-    tolerance = show(from_mm(options.tolerance, unit), Kind.LENGTH, unit)
+    tolerance = length_text(options.tolerance, unit)
     if listed.tiny:
         yield f"{_were(listed.tiny, 'piece', f'shorter than TOLERANCE {tolerance}')} dropped."
     if listed.duplicates:
@@ -134,7 +134,7 @@ def _were(count: int, noun: str, which: str = "") -> str:
 
 
 def _place(point: Point, unit: Unit) -> str:
-    x, y = (show(from_mm(value, unit), Kind.LENGTH, unit) for value in point)
+    x, y = (length_text(value, unit) for value in point)
     return f"X {x} Y {y}"
 
 

@@ -16,12 +16,12 @@ from core.controls.write.iso_program import Frame, offsets
 from core.controls.write.iso_style import STYLE_OF_CONTROL, Radius
 from core.controls.write.written_program import Posted, Refusal, write_program
 from core.finding import Finding, Severity
-from core.output.grid import Grid, length_text
+from core.output.grid import Grid
 from core.output.nc import comments, program_titles
 from core.output.objections import posting_errors
 from core.output.passes import Job, level_floor
 from core.program.model import Coolant
-from core.units import Unit, printable, sentence
+from core.units import Unit, length_text, printable, sentence
 
 CLIMBS_TEXT: Final = (
     "A segment climbs or falls (Z END) under compensation, where the heights at corners are the control's own.  "

@@ -14,7 +14,7 @@ from typing import Final
 
 from core.geometry.piece import Arc, Point
 from core.tolerance import CLOSED
-from core.units import Kind, Unit, from_mm, show
+from core.units import Unit, from_mm
 
 NC_DECIMALS: Final = {Unit.IN: 6, Unit.MM: 5}
 FEED_DECIMALS: Final = 3
@@ -120,8 +120,3 @@ def feed_text(feed: float, grid: Grid) -> str:
     """Return a feed in program units per minute, without needless zeros."""
     whole, _, decimal = f"{from_mm(feed, grid.unit):.{FEED_DECIMALS}f}".partition(".")
     return f"{whole}.{decimal.rstrip('0') or '0'}"
-
-
-def length_text(value: float, unit: Unit) -> str:
-    """Return millimeters in program units, with the decimals of the form."""
-    return show(from_mm(value, unit), Kind.LENGTH, unit)

@@ -21,11 +21,11 @@ from core.controls.write.iso_program import CORNER_TOLERANCE, speed_text
 from core.controls.write.written_program import Posted, Refusal
 from core.finding import Finding
 from core.geometry.piece import Arc, Turn
-from core.output.grid import EXTRA_CENTER_DECIMALS, Grid, arc_parts, feed_text, length_text
+from core.output.grid import EXTRA_CENTER_DECIMALS, Grid, arc_parts, feed_text
 from core.output.objections import OVERRIDE_PHRASE, overridable_errors, posting_errors
 from core.output.passes import Cutter, Job, Pass, at_one_safe_z, clear_height, passes
 from core.program.model import Coolant
-from core.units import Unit, located_sentence
+from core.units import Unit, length_text, located_sentence
 
 COMMENT_WIDTH: Final = 72
 """Characters inside the parentheses; longer text continues in another comment."""

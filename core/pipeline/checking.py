@@ -25,7 +25,7 @@ from core.controls.registry import UnknownControl, reads, run
 from core.finding import Finding, Severity
 from core.pipeline.fitting_tool import largest_tool
 from core.progress import Progress, silent
-from core.units import Kind, Unit, from_mm, sentence, show
+from core.units import Unit, from_mm, length_text, sentence
 
 NOT_FOLLOWED: Final = (
     *("MACRO", "LIMIT", "BEYOND", "N-PROBE"),
@@ -333,7 +333,7 @@ def _outcome(
         return State.EMPTY, "has nothing to run"
     cut, line = deepest_gouge(results)
     place = f"at line {line}" if line else "in a lead"
-    gouges = f"gouges by {_length(cut, done.unit)} {place}" if cut else ""
+    gouges = f"gouges by {length_text(cut, done.unit)} {place}" if cut else ""
     if done.stopped_at is not None:
         rule = "" if why is None else why.code
         state, stops = (
@@ -360,11 +360,7 @@ def _outcome(
 def _parting(parting: Parting, of: str, unit: Unit) -> str:
     """Return where the paths part, their largest distance and its line; short enough for a line of the screen."""
     where = f"differs from {display_name(of)} from line {parting.line}"
-    return f"{where}, by {_length(parting.distance, unit)} at line {parting.farthest}"
-
-
-def _length(value: float, unit: Unit) -> str:
-    return show(from_mm(value, unit), Kind.LENGTH, unit)
+    return f"{where}, by {length_text(parting.distance, unit)} at line {parting.farthest}"
 
 
 def _move(move: Move, unit: Unit) -> dict[str, object]:
@@ -479,7 +475,7 @@ def _pair(pair: ContourPair, first: Unit, second: Unit) -> str:
         return f"Contour {pair.number}: the same."
     partings = ((pair.first, first, "first"), (pair.second, second, "second"))
     differences = [
-        f"line {parting.farthest} of the {name} is {_length(parting.distance, unit)} {unit.value} off"
+        f"line {parting.farthest} of the {name} is {length_text(parting.distance, unit)} {unit.value} off"
         for parting, unit, name in partings
         if parting
     ]

@@ -11,7 +11,7 @@ from core.pipeline.derived import Derived, DerivedBlock
 from core.pipeline.parameters import parameter
 from core.program.model import Number, Program, Typed
 from core.program.tools import find_tool
-from core.units import Kind, Unit, from_mm, show
+from core.units import Kind, Unit, from_mm, length_text, show
 
 
 def jobs(derived: Derived) -> tuple[Job, ...]:
@@ -69,7 +69,7 @@ def _notes(block: DerivedBlock, unit: Unit) -> Iterator[str]:
         which = f"SEGMENT{'S' if len(numbers) > 1 else ''} {', '.join(f'{number:g}' for number in numbers)}"
         yield f"DELETED BY THE LOOK-AHEAD: {which}"
     if work.verdict.over_run_at is not None:
-        x, y = (show(from_mm(value, unit), Kind.LENGTH, unit) for value in work.verdict.over_run_at)
+        x, y = (length_text(value, unit) for value in work.verdict.over_run_at)
         yield f"OVER-RUN AT X {x} Y {y}: THE ENDS ARE LEAD-IN AND LEAD-OUT"
     if work.verdict.uncut:
         left, whole = (from_mm(length, unit) for length in (work.verdict.uncut_length, work.verdict.surface_length))
