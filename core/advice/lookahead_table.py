@@ -2,15 +2,17 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 
 from core.comp.compensate import compensate_all
 from core.comp.compensated import Compensated
-from core.comp.lookahead import MAX_LOOKAHEAD, MIN_LOOKAHEAD, recommended
+from core.comp.lookahead import MAX_LOOKAHEAD, MIN_LOOKAHEAD
 from core.finding import Finding
 from core.geometry.path import Path
 from core.geometry.piece import Side
 from core.progress import Progress, part, silent
+from core.tolerance import JOINED
 from core.verify.judge import judge
 from core.verify.report import enumerated
 from core.verify.verdict import Verdict
@@ -98,6 +100,13 @@ class Table:
     def row(self, value: int) -> Row:
         """Return the row of a look-ahead value."""
         return self.rows[value - MIN_LOOKAHEAD]
+
+
+def recommended(rows: Sequence[Row]) -> int | None:
+    """Return the smallest of the clean values that leave the least uncut; None if no value is clean."""
+    clean = [row for row in rows if row.clean]
+    least = min((row.uncut for row in clean), default=0.0)
+    return min((row.value for row in clean if row.uncut <= least + JOINED), default=None)
 
 
 def judge_lookaheads(setup: CuttingSetup, progress: Progress = silent) -> Table:

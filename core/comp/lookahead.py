@@ -1,11 +1,8 @@
-"""Look-ahead: the calculated value (CAL), the range of typed values (USR), the recommended one; `prune` applies it."""
+"""Look-ahead: the calculated value (CAL) and the range of typed values (USR); `prune` applies it."""
 
 from __future__ import annotations
 
-from collections.abc import Sequence
-from typing import Final, Protocol
-
-from core.tolerance import JOINED
+from typing import Final
 
 MIN_LOOKAHEAD: Final = 1
 """The smallest look-ahead an operator may type."""
@@ -23,26 +20,3 @@ def calculated(count: int, *, closed: bool) -> int:
     """
     wanted, least = (count - 1, 3) if closed else (count - 3, 2)
     return min(max(wanted, least), _LARGEST_CALCULATED)
-
-
-class LookaheadOutcome(Protocol):
-    """The effect of one look-ahead value on a contour: lengths in millimeters."""
-
-    @property
-    def value(self) -> int:
-        """The look-ahead value."""
-
-    @property
-    def clean(self) -> bool:
-        """True if its path gouges nothing."""
-
-    @property
-    def uncut(self) -> float:
-        """Length of surface that it leaves uncut."""
-
-
-def recommended(outcomes: Sequence[LookaheadOutcome]) -> int | None:
-    """Return the smallest of the clean values that leave the least uncut; None if no value is clean."""
-    clean = [outcome for outcome in outcomes if outcome.clean]
-    least = min((outcome.uncut for outcome in clean), default=0.0)
-    return min((outcome.value for outcome in clean if outcome.uncut <= least + JOINED), default=None)

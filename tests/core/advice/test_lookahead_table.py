@@ -3,10 +3,11 @@
 from __future__ import annotations
 
 from dataclasses import replace
+from typing import NamedTuple
 
 import pytest
 
-from core.advice.lookahead_table import CuttingSetup, judge_lookaheads
+from core.advice.lookahead_table import CuttingSetup, judge_lookaheads, recommended
 from core.geometry.piece import Side
 from core.verify.judge import judge
 from tests.core.comp.contours import lines
@@ -75,3 +76,24 @@ def test_the_effect_of_a_clean_value_names_what_stays_or_is_deleted():
     )
     wall = lines((0, 0), (2, 0), (2, 3))
     assert judge_lookaheads(replace(SETUP, surface=wall, side=Side.RIGHT)).row(3).effect == ("is clean", ())
+
+
+class Outcome(NamedTuple):
+    value: int
+    clean: bool
+    uncut: float
+
+
+@pytest.mark.parametrize(
+    ("outcomes", "value"),
+    [
+        ([], None),
+        ([Outcome(1, False, 0.0)], None),
+        ([Outcome(1, False, 0.0), Outcome(2, True, 3.0), Outcome(3, True, 1.0), Outcome(4, True, 1.0)], 3),
+        ([Outcome(3, True, 1.0 + 1e-8), Outcome(4, True, 1.0)], 3),
+        ([Outcome(3, True, 1.0 + 1e-6), Outcome(4, True, 1.0)], 4),
+        ([Outcome(20, True, 0.0), Outcome(1, True, 0.5)], 20),
+    ],
+)
+def test_the_recommended_value_is_the_least_clean_one_that_leaves_least(outcomes, value):
+    assert recommended(outcomes) == value

@@ -1,14 +1,13 @@
-"""The calculated look-ahead, and the one that is recommended."""
+"""The calculated look-ahead."""
 
 from __future__ import annotations
 
 import subprocess
 import sys
-from typing import NamedTuple
 
 import pytest
 
-from core.comp.lookahead import MAX_LOOKAHEAD, MIN_LOOKAHEAD, calculated, recommended
+from core.comp.lookahead import MAX_LOOKAHEAD, MIN_LOOKAHEAD, calculated
 
 OPEN = [2, 2, 2, 2, 2, 3, 4, 5, 6, 7, 8, 8]
 CLOSED = [3, 3, 3, 3, 4, 5, 6, 7, 8, 8, 8, 8]
@@ -30,27 +29,6 @@ def test_long_contours_stay_at_eight():
 
 def test_range_of_a_typed_value():
     assert (MIN_LOOKAHEAD, MAX_LOOKAHEAD) == (1, 20)
-
-
-class Outcome(NamedTuple):
-    value: int
-    clean: bool
-    uncut: float
-
-
-@pytest.mark.parametrize(
-    ("outcomes", "value"),
-    [
-        ([], None),
-        ([Outcome(1, False, 0.0)], None),
-        ([Outcome(1, False, 0.0), Outcome(2, True, 3.0), Outcome(3, True, 1.0), Outcome(4, True, 1.0)], 3),
-        ([Outcome(3, True, 1.0 + 1e-8), Outcome(4, True, 1.0)], 3),
-        ([Outcome(3, True, 1.0 + 1e-6), Outcome(4, True, 1.0)], 4),
-        ([Outcome(20, True, 0.0), Outcome(1, True, 0.5)], 20),
-    ],
-)
-def test_the_recommended_value_is_the_least_clean_one_that_leaves_least(outcomes, value):
-    assert recommended(outcomes) == value
 
 
 def test_needs_no_numpy():
