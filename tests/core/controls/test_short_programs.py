@@ -307,3 +307,45 @@ def test_a_word_that_a_code_of_its_block_uses_is_not_reported(block: str) -> Non
     run = ran(f"G21 F9.\nG55\n{block}\nM30\n", "fanuc:a", t1=5.0)
     assert {finding.code for finding in run.findings} <= {"OFFSET", "HOME", "DWELL"}, run.findings
     assert not any("G54.1 P2" in finding.text for finding in run.findings)
+
+
+ORIGINS = "G52 X1.|G92 X1.|G54|G55|G56|G57|G58|G59"
+UNDER_COMPENSATION = {
+    ("linuxcnc", "N-OFFSETS"): f"{ORIGINS}|G59.1|G59.2|G59.3|G92.1|G92.2|G92.3",
+    ("linuxcnc", "N-HOME"): "G28|G30",
+    ("linuxcnc", "N-G53"): "G53 G0 X1",
+    ("linuxcnc", "N-LENGTH"): "G43 H1|G43.1 Z1|G43.2 H1|G49",
+    ("linuxcnc", "N-MODE"): "G61|G61.1|G64|G98|G99",
+    ("linuxcnc", "N-TOOL"): "M6|M61 Q1",
+    ("linuxcnc", "N-OVERRIDE"): "M48|M49|M50|M51|M52|M53",
+    ("linuxcnc", "N-OUTPUT"): "M62 P1|M63 P1|M64 P1|M65 P1|M66 P1|M67 E1 Q1|M68 E1 Q1",
+    ("linuxcnc", "N-PLANE"): "G18|G19",
+    ("linuxcnc", ""): "G17|G90|G94|M7|M3|G4 P1",
+    ("threeblock", "ORIGIN"): "G4|G28|G30|G92 X1.|G54|G55|G56|G57|G58|G59|G20|G21|G70|G71",
+    ("threeblock", "B10-NOMOVE"): "G90|G45|G44",
+    ("threeblock", "B14-MCODE"): "M3",
+    ("fanuc:a", "FN-G5"): f"{ORIGINS}|G54.1 P1|G28 X20.|G30 X20.|G53 X20.",
+    ("fanuc:a", "FN-N2"): "M0|M1",
+    ("fanuc:a", "FN-TRANSFORM"): "G68 X0 Y0 R30.|G51 X0 Y0 P2.|G51.1 X0",
+    ("fanuc:a", "PS0036"): "G31 X25.",
+    ("fanuc:a", "PS0037"): "G18|G19",
+    ("fanuc:a", ""): "M8|G69|G50|G50.1 X0|G17|G90",
+    ("haas:a", "FN-G5"): "G110|G129|G154 P1",
+    ("nine-series:a", "R7"): f"{ORIGINS}|G92.1",
+    ("nine-series:a", "HOME"): "G28 X20.|G30 X20.|G53 X20.",
+    ("nine-series:a", "PLANE"): "G17|G18|G19",
+    ("nine-series:a", ""): "M8|G90|G94",
+}
+"""What a control does at these blocks under compensation; nothing where the rule is empty."""
+
+
+@pytest.mark.parametrize(
+    ("control", "rule", "block"),
+    [(control, rule, block) for (control, rule), blocks in UNDER_COMPENSATION.items() for block in blocks.split("|")],
+)
+def test_a_block_under_compensation_has_its_rule(control: str, rule: str, block: str) -> None:
+    first = "G71 F9. T1" if control == "threeblock" else "G21 F9. T1 M6"
+    side = "G41 D1" if control != "threeblock" else "G41"
+    run = ran(f"{first}\n{side} G1 X9.\nX20.\n{block}\nY-30.\n", control, t1=5.0)
+    assert rule in [finding.code for finding in run.findings if finding.line == 4] or not rule
+    assert rule or not [finding for finding in run.findings if finding.line == 4]
