@@ -25,6 +25,7 @@ from app.documents.service import DocumentService, Opened
 from app.documents.settings import SettingsFile
 from app.screens.base import HEIGHT_CLASSES, WIDTH_CLASSES, BaseScreen
 from app.screens.contour import ContourScreen
+from app.screens.opening import OpeningScreen
 from app.session.block_findings import Entry
 from app.session.derivation import Request
 from app.session.messages import Tone
@@ -156,13 +157,29 @@ class CutcompApp(TransformActions):
         return ContourScreen()
 
     def on_mount(self) -> None:
-        """Show HOME first if asked to, before the first key is read."""
+        """Show HOME first if asked to, or that a file is being opened whose screen is loaded later.
+
+        Nobody may type into the form of a new program that is not meant.
+        """
+        opened = None if self._opened is None else self._opened.document
+        later = self.drawing or (opened.file.path if isinstance(opened, NcDocument) else None)
         if self._home:
             self.action_home()
+        elif later is not None:
+            self.push_screen(OpeningScreen(later.name))
 
     def on_ready(self) -> None:
         """Start the first calculation once the first screen is painted; show the opened file and its question."""
         self.call_after_refresh(self._first_painted)
+        if isinstance(self.screen, OpeningScreen):
+            self.call_after_refresh(self._show_first_file)
+        else:
+            self._show_first_file()
+
+    def _show_first_file(self) -> None:
+        """Show the opened file and its question; loading the screen of a drawing or an NC text takes a while."""
+        if isinstance(self.screen, OpeningScreen):
+            self.pop_screen()
         if self.drawing is not None:
             self.show_drawing(self.drawing, fresh=True)
         if self._opened is not None:
