@@ -57,7 +57,7 @@ from core.units import Kind, Unit, Unreadable, parse, sentence
 
 if TYPE_CHECKING:
     from core.draw.view import View
-    from core.pipeline.checking import Asked
+    from core.pipeline.checking import Answer, Asked
 
 READING_PROMPT: Final = (
     "Enter edits, N and P go from finding to finding, C another control, T a tool's diameter, V compares all controls."
@@ -412,7 +412,9 @@ class ProofScreen(BaseScreen):
         tools = "  ".join(map(self._shown_tool, self.question.tools.tools.values()))
         dotted = f", dotted {display_name(self.dotted_control)}" if self.dotted_control else ""
         self.query_one("#proof-control", Label).update(f"{display_name(self.question.control)}{dotted}")
-        self.query_one("#proof-tools", Label).update(f"tools {tools or 'none given'}")
+        # an alarm for want of a tool says so itself, and needs the room
+        lacks = self.result is not None and self.result.answer.missing is not None
+        self.query_one("#proof-tools", Label).update(f"tools {tools}" if tools else "" if lacks else "tools none given")
         path = self.document.file.path
         name = "NO NAME" if path is None else path.name
         name = name if self.document.file.holder is None else f"LOOK ONLY {name}"
@@ -432,13 +434,22 @@ class ProofScreen(BaseScreen):
             return Content("running ...")
         answer = self.result.answer
         role = "$c-err" if answer.errors else "$c-warn" if answer.uncompensated or answer.warnings else "$c-good"
-        text = f"{answer.outcome}; {counted(answer.count, 'move')}"
+        text = self._alarm(answer) or f"{answer.outcome}; {counted(answer.count, 'move')}"
         # after an alarm only part of the program was run, so its contours are not counted
         if answer.stretches != 1 and answer.stopped_at is None:
             text += f", {counted(answer.stretches, 'contour') if answer.stretches else 'no contour'}"
         if not self.result.judged:
             role, text = "$c-warn", "being judged ..."
         return Content.styled(f"{text}{'' if self.result.question is self.question else ' ...'}", role)
+
+    def _alarm(self, answer: Answer) -> str:
+        """Return the line and the reason of an alarm; empty if there is none, or if a gouge comes before it."""
+        if not answer.outcome.startswith("alarms at"):
+            return ""
+        reason = f"{answer.why_said.partition('. ')[0].removesuffix('.')}."
+        if answer.missing is not None:
+            reason = f"tool {answer.missing} not in table. T adds it."
+        return f"{MARKS_OF_CHARACTERS[self.host.characters].gouge} ALARM line {answer.stopped_at}: {reason}"
 
     # ---- findings
 

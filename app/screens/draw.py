@@ -34,8 +34,7 @@ if TYPE_CHECKING:
 
 NO_PICK: Final = "This segment needs no pick."
 PROMPT: Final = (
-    "N and P go from finding to finding, Enter to its field. + and - zoom, arrows move, "
-    "0 shows the whole part, Page Up and Page Down walk."
+    "N and P step the findings, Enter edits. + and - zoom, arrows move, 0 is the whole part, Page Up and Down walk."
 )
 
 

@@ -87,4 +87,4 @@ def unread_text(unread: Unread, field: Field, unit: Unit) -> str:
 
 def prompt_of(field: Field) -> str:
     """Return the field's prompt; for a choice, add the choices and how to pick one."""
-    return f"{field.prompt} Type the first letters: {', '.join(field.choices)}." if field.choices else field.prompt
+    return f"{field.prompt} Letters pick {', '.join(field.choices)}." if field.choices else field.prompt

@@ -25,6 +25,7 @@ from app.nc_proof.runs import RanDotted, Result, first_tool, header_tools, likel
 from app.nc_proof.screen import ProofScreen, read_tool
 from app.screens.dialogs import Question
 from app.screens.home import HomeScreen
+from app.screens.opening import OpeningScreen
 from app.session.work import Work
 from app.widgets.drawing import Drawing
 from app.widgets.status import Status
@@ -100,7 +101,7 @@ async def with_tool(user: Proof, text: str = "1=.25") -> None:
 
 async def test_an_unknown_tool_stops_the_control_until_its_diameter_is_typed(tmp_path):
     async with at_proof(tmp_path) as user:
-        assert "alarms at line 3" in user.outcome
+        assert user.outcome == "✖ ALARM line 3: tool 1 not in table. T adds it."
         assert " T gives tool 1 its diameter." in user.proof.result.answer.why.text
         await user.press("n")
         assert user.prompt.endswith(" T gives tool 1 its diameter.")
@@ -109,6 +110,20 @@ async def test_an_unknown_tool_stops_the_control_until_its_diameter_is_typed(tmp
         assert "1=0.25" in str(user.proof.query_one("#proof-tools", Label).content)
         await user.press(">")
         assert "gouges by 0.1255" in user.outcome
+
+
+async def test_an_nc_text_opens_over_no_form_that_could_be_typed_into(tmp_path, monkeypatch):
+    in_front = []
+    ready = CutcompApp.on_ready
+
+    def on_ready(app: CutcompApp) -> None:
+        in_front.append((type(app.screen), app.focused))
+        ready(app)
+
+    monkeypatch.setattr(CutcompApp, "on_ready", on_ready)
+    async with at_proof(tmp_path) as user:
+        assert user.screen is user.proof
+    assert in_front == [(OpeningScreen, None)]
 
 
 async def test_the_findings_name_the_largest_tool_that_fits(tmp_path):
