@@ -78,6 +78,7 @@ class ProofScreen(BaseScreen):
     """
 
     AUTO_FOCUS: ClassVar[str | None] = "#listing"
+    HAS_PROGRESS: ClassVar[bool] = True
     SHOWS_NC_TEXT: ClassVar[bool] = True
     BINDINGS: ClassVar[list[BindingType]] = [
         Binding("enter", "edit", "Edit", show=False),

@@ -34,6 +34,7 @@ from app.session.session import Session
 from app.session.work import Work
 from app.widgets.drawing import Drawing
 from app.widgets.findings_list import FindingsList
+from app.widgets.progress import Progress
 from app.widgets.prompt import Prompt
 from app.widgets.segment_list import SegmentList
 from app.widgets.softkeys import Softkey, Softkeys
@@ -82,6 +83,8 @@ class BaseScreen(Screen[None]):
         ("?", "KEYS, HELP"),
     )
     """Further keys, listed under the softkeys; the keys of lists and findings act only where F10 is one of them."""
+    HAS_PROGRESS: ClassVar[bool] = False
+    """Whether a bar in the place of the prompt shows long work, not the status line."""
     SHOWS_NC_TEXT: ClassVar[bool] = False
     """Whether this is the screen NC PROOF."""
 
@@ -116,6 +119,8 @@ class BaseScreen(Screen[None]):
                 yield from self.compose_body()
             yield Softkeys(self.SOFTKEYS, self.MORE_KEYS, self.key_acts)
         yield Prompt()
+        if self.HAS_PROGRESS:
+            yield Progress()
         yield Status(self.host.surroundings)
 
     @abstractmethod
@@ -271,9 +276,17 @@ class BaseScreen(Screen[None]):
         return False
 
     def show_work(self, work: Work | None) -> None:
-        """Show the progress of long work on the status line, if the screen is ready."""
-        if self.stands:
+        """Show the progress of long work in the place of the prompt or on the status line, if the screen is ready."""
+        if not self.stands:
+            return
+        if not self.HAS_PROGRESS:
             self.query_one(Status).show_work("" if work is None else work.text)
+            return
+        progress = self.query_one(Progress)
+        if work is not None:
+            progress.show(work)
+        progress.display = work is not None
+        self.query_one(Prompt).display = work is None
 
     def too_small(self) -> Sentence | None:
         """Return a warning if the terminal is smaller than supported; all keys still work."""

@@ -43,6 +43,7 @@ class PostScreen(EntryScreen):
 
     TITLE: ClassVar[str] = "POST NC"
     LABEL: ClassVar[str] = "NC FILE"
+    HAS_PROGRESS: ClassVar[bool] = True
     SOFTKEYS: ClassVar[tuple[Softkey | None, ...]] = (
         Softkey("POST", "enter", "POST"),
         Softkey("CHOOSE CONTROL", "controls", "CONTROL"),

@@ -1,4 +1,4 @@
-"""Long work: the status line shows its progress, Esc stops it, and it can be started again."""
+"""Long work: the status line or a bar shows its progress, Esc stops it, and it can be started again."""
 
 from __future__ import annotations
 
@@ -7,7 +7,7 @@ from threading import Event
 from time import monotonic, sleep
 
 import pytest
-from textual.widgets import Static
+from textual.widgets import Label, ProgressBar, Static
 
 import app.derivation_actions as app_module
 import app.nc_proof.dialogs as dialogs_module
@@ -16,6 +16,8 @@ import app.screens.post as post_module
 from app.documents.document import NcDocument
 from app.documents.nc_text import NcText
 from app.session import work
+from app.widgets.progress import Progress
+from app.widgets.prompt import Prompt
 from app.widgets.status import Status
 from core.progress import Stopped
 from tests.app.widget_pilot import Operator, operator
@@ -56,6 +58,17 @@ async def seen(user: Operator, text: str) -> None:
     """Wait until the status line contains this text."""
     while text not in status(user):
         await user.pilot.pause(0.01)
+
+
+async def bar(user: Operator, percent: int) -> None:
+    """Wait until a bar in the place of the prompt shows this much, and that Esc stops the work."""
+    progress, prompt = user.screen.query_one(Progress), user.screen.query_one(Prompt)
+    done, stops = progress.query_one(ProgressBar), progress.children[-1]
+    while not (progress.display and stops.visible and done.percentage and round(100 * done.percentage) == percent):
+        await user.pilot.pause(0.01)
+    assert str(progress.query_children(Label).last().content) == "Esc stops"
+    assert not prompt.display
+    assert "Free:" in status(user)
 
 
 async def test_a_long_derivation_shows_its_progress_and_escape_stops_it(monkeypatch):
@@ -110,7 +123,7 @@ async def posting(monkeypatch):
         slow = Slow(monkeypatch, post_module, "nc_text")
         user.app.action_post()
         await user.pilot.pause()
-        await seen(user, "working 40 %")
+        await bar(user, 40)
         yield user, slow
 
 
@@ -157,9 +170,11 @@ async def test_escape_stops_a_run_of_a_control_and_the_outcome_says_so(monkeypat
         slow = Slow(monkeypatch, proof_module, "run")
         user.app.show_nc(NcDocument(NcText.read(b"G21 G1 X1 F9\nM30\n")))
         await user.pilot.pause()
-        await seen(user, "working 20 %")
+        await bar(user, 20)
         await user.press("escape")
         assert slow.stopped
+        assert user.screen.query_one(Prompt).display
+        assert not user.screen.query_one(Progress).display
         assert "stopped" in str(user.screen.query_one("#proof-outcome").render())
         assert type(user.screen).__name__ == "ProofScreen"
 
