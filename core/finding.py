@@ -31,6 +31,7 @@ class Finding:
     `at` (x, y) and `value` are millimeters, `lengths` further millimeters that the text uses.
     `line` and `column` count from 1 in an imported program.  `area` is in square millimeters.
     `block` counts from 1 if the findings of several blocks are listed together.
+    `tool` is the number or name of the tool whose size a control lacks.
     """
 
     code: str
@@ -46,3 +47,4 @@ class Finding:
     area: float | None = None
     block: int | None = None
     last_segment: float | None = None
+    tool: int | str | None = None

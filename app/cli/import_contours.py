@@ -23,7 +23,7 @@ from core.importing.drawing import DrawingError, DrawingUnit
 from core.importing.listing import rows_of, sentences, table
 from core.importing.nc_contour import CenterPathTool, NcContour, NcError, nc_blocks
 from core.importing.segments import DoesNotFitError, comment, with_contours
-from core.pipeline.checking import with_tool_option
+from core.pipeline.checking import tool_option
 from core.program.file.write import dumps
 from core.program.model import Program
 from core.units import Unit, to_mm
@@ -41,7 +41,8 @@ def import_contours(arguments: list[str]) -> int:
             import_nc(options)
     except NcError as error:
         more = " Add --side left or right and --diameter D, or --side on." if error.needs_center else ""
-        raise Unusable(f"{with_tool_option(str(error))}{more}") from error
+        option = "" if error.tool is None else f" {tool_option(error.tool)}"
+        raise Unusable(f"{error}{option}{more}") from error
     except DoesNotFitError as error:
         raise Unusable(str(error)) from error
     except DrawingError as error:

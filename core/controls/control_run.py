@@ -7,6 +7,7 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from typing import Final, NamedTuple, NoReturn
 
+from core.controls.control_tools import ToolId
 from core.controls.moves import Moves, Plane
 from core.finding import Finding, Severity
 from core.geometry.piece import Side
@@ -213,10 +214,14 @@ class Log:
         lengths: tuple[float, ...] = (),
         at: tuple[float, float] | None = None,
         stops_at: int | None = None,
+        tool: ToolId | None = None,
     ) -> NoReturn:
-        """Stop the control with an alarm, at the finding's line unless another is given."""
+        """Stop the control with an alarm, at the finding's line unless another is given.
+
+        `tool` is the one whose size is missing.
+        """
         code = self.rule_names.get(code, code)
-        finding = Finding(code, Severity.ERROR, text, at=at, lengths=lengths, line=line, column=column)
+        finding = Finding(code, Severity.ERROR, text, at=at, lengths=lengths, line=line, column=column, tool=tool)
         raise AlarmError(finding, stops_at or line)
 
     def closed(self) -> tuple[Finding, ...]:

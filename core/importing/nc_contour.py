@@ -7,6 +7,7 @@ from itertools import pairwise
 from math import dist
 from typing import Final, NamedTuple
 
+from core.controls.control_tools import ToolId
 from core.geometry.piece import Piece, Side
 from core.importing.contour import Contour, ContourKind
 from core.importing.segments import ImportedBlock, block_of
@@ -22,12 +23,13 @@ SAME_HEIGHT: Final = 1e-4
 class NcError(Exception):
     """An NC program gives no contour; the text says why, with the line.
 
-    `needs_center`: the operator must give the side and the diameter.
+    `needs_center`: the operator must give the side and the diameter; `tool`: the diameter of that tool.
     """
 
-    def __init__(self, text: str, *, needs_center: bool = False) -> None:
+    def __init__(self, text: str, *, needs_center: bool = False, tool: ToolId | None = None) -> None:
         super().__init__(text)
         self.needs_center = needs_center
+        self.tool = tool
 
 
 @dataclass(frozen=True, slots=True)

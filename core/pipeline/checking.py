@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import re
 from collections import Counter
 from collections.abc import Callable, Iterable, Iterator
 from dataclasses import dataclass, replace
@@ -15,7 +14,7 @@ from core.controls.compared_contours import ContourPair, Parting, contours
 from core.controls.compared_controls import Compared, OtherLanguage, compare
 from core.controls.control_names import display_name
 from core.controls.control_run import MAX_ALIKE, ControlRun, more_alike
-from core.controls.control_tools import ToolId, ToolTable, tool_id
+from core.controls.control_tools import ToolId, ToolTable
 from core.controls.iso.execute import NO_LIBRARY
 from core.controls.iso.flow import ProgramLibrary
 from core.controls.iso.modal_state import RADIUS_ZERO
@@ -36,11 +35,6 @@ EMPTY_CODE: Final = "EMPTY"
 """The rule of a program with nothing to run."""
 SHALLOW_GOUGE_SHARE: Final = 0.01
 """A gouge is shallow below this fraction of the tool's radius."""
-
-_NO_SIZE: Final = re.compile(r"(?:[Tt]ool table has no tool|Offset) (\d+)|diameter of tool (.+) is (?:unknown|not)")
-"""Texts in which controls say that they do not know a tool's size."""
-_NO_TOOL: Final = re.compile(r"The tool's radius is unknown\.")
-"""The text in which Klartext says that it knows no tool at all."""
 
 
 class State(StrEnum):
@@ -133,8 +127,7 @@ class Answer:
         """The number or name of the tool whose diameter the control lacks when it stops, else None."""
         if self.stopped_at is None:
             return None
-        matches = (_NO_SIZE.search(finding.text) for finding in self.findings if finding.severity is Severity.ERROR)
-        return next((tool_id(match[1] or match[2]) for match in matches if match), None)
+        return next((error.tool for error in self.findings if error.tool is not None), None)
 
     @property
     def count(self) -> int:
@@ -169,7 +162,7 @@ def answer(text: bytes, asked: Asked) -> Answer:
 def _complete(row: Answer, done: ControlRun, text: bytes, asked: Asked) -> Answer:
     """Return the answer with the largest tool that fits, and with the option that gives a tool its size if asked."""
     row = with_largest_tool(row, done, text, asked)
-    return _with_remedy(row, with_tool_option) if asked.names_options else row
+    return _with_remedy(row, tool_option) if asked.names_options else row
 
 
 def with_largest_tool(row: Answer, done: ControlRun, text: bytes, asked: Asked, progress: Progress = silent) -> Answer:
@@ -204,37 +197,27 @@ def _only_leads_gouge(row: Answer, done: ControlRun) -> bool:
     return contours.isdisjoint(finding.line for finding in row.findings if finding.code == "GOUGE")
 
 
-def _with_remedy(row: Answer, with_remedy: Callable[[str], str]) -> Answer:
-    """Return the answer with a remedy in the text of the alarm that stops the control."""
-    if row.why is None or row.stopped_at is None:
+def _with_remedy(row: Answer, remedy: Callable[[ToolId], str]) -> Answer:
+    """Return the answer; if the control stops for lack of a tool's size, with the remedy in the text of that alarm."""
+    if row.why is None or row.stopped_at is None or row.why.tool is None:
         return row
-    why = replace(row.why, text=with_remedy(row.why.text))
+    why = replace(row.why, text=f"{row.why.text} {remedy(row.why.tool)}")
     return replace(row, why=why, findings=tuple(why if finding is row.why else finding for finding in row.findings))
 
 
-def with_tool_option(text: str) -> str:
-    """Return the text of an alarm; if it says that a tool's size is unknown, with the option that gives it."""
-    tool = _tool_without_size(text)
-    return f"{text} On the command line: --tool {quote(tool)}=DIAMETER." if tool else text
+def tool_option(tool: ToolId) -> str:
+    """Return the sentence that names the option for a tool's size."""
+    return f"On the command line: --tool {quote(str(tool))}=DIAMETER."
 
 
-def with_tool_key(text: str) -> str:
-    """Return the text of an alarm; if it says that a tool's size is unknown, with the key of NC PROOF that gives it."""
-    tool = _tool_without_size(text)
-    return f"{text} T gives tool {tool} its diameter." if tool else text
-
-
-def _tool_without_size(text: str) -> str:
-    """Return the tool whose size an alarm says is unknown; empty if it says something else."""
-    size = _NO_SIZE.search(text)
-    if size is not None:
-        return str(size[1] or size[2])
-    return "1" if _NO_TOOL.search(text) else ""
+def _tool_key(tool: ToolId) -> str:
+    """Return the sentence that names the key of NC PROOF for a tool's size."""
+    return f"T gives tool {tool} its diameter."
 
 
 def answered(done: ControlRun, results: tuple[Judged, ...], text: bytes) -> Answer:
     """Return the answer of a control that has run a text, with the key that gives a tool its size if it needs one."""
-    return _with_remedy(_answer(done, results, _foreign(done.control, text), shop=False), with_tool_key)
+    return _with_remedy(_answer(done, results, _foreign(done.control, text), shop=False), _tool_key)
 
 
 def answer_all(text: bytes, asked: Asked, reference: str = "", progress: Progress = silent) -> tuple[Answer, ...]:
@@ -459,8 +442,9 @@ def same_contours(first: bytes, second: bytes, asked: Asked) -> tuple[bool, tupl
 
 def _stopped(name: str, done: ControlRun) -> str:
     why = next((err for err in done.findings if err.line == done.stopped_at and err.severity is Severity.ERROR), None)
-    reason = "" if why is None else f" {with_tool_option(sentence(why, done.unit))}"
-    return f"{name} stops at line {done.stopped_at}; what follows is not compared.{reason}"
+    reason = "" if why is None else f" {sentence(why, done.unit)}"
+    option = "" if why is None or why.tool is None else f" {tool_option(why.tool)}"
+    return f"{name} stops at line {done.stopped_at}; what follows is not compared.{reason}{option}"
 
 
 def _read(text: bytes, asked: Asked) -> ControlRun:

@@ -504,7 +504,7 @@ class Machine(ModalState):
         number = whole(block.words.get("P", -1.0))
         tool = None if number is None else self.tools.get(number)
         if tool is None:
-            self.log.stop("TOOL", missing_tool(number), block.line, block.column("PL"))
+            self.log.stop("TOOL", missing_tool(number), block.line, block.column("PL"), tool=number)
         text = "Q, the orientation of a lathe tool, is a whole number from 0 to 9."
         orientation = whole_word(block, "Q", self.log, "DATA", text, 0, 9, default=tool.orientation)
         tool = replace(tool, orientation=orientation)

@@ -211,7 +211,7 @@ class ModalState:
         if block.data is not None:
             self._enter_tool_data(block.data, block)
         if number and self.dialect.table_needed and self.tools.get(number) is None:
-            self.log.stop("TOOL", missing_tool(number), block.line, block.column("T"))
+            self.log.stop("TOOL", missing_tool(number), block.line, block.column("T"), tool=number)
         self.next_tool = number
         if self.dialect.loads_at_t:
             self.tool = number

@@ -13,7 +13,7 @@ from typing import Final, NoReturn
 
 from core.controls.compensation.elements import Element
 from core.controls.control_run import Log, SpindleChange
-from core.controls.control_tools import ToolTable
+from core.controls.control_tools import ToolTable, tool_id
 from core.controls.klartext.center_path import FeedAt, ProgrammedStep, Role
 from core.controls.klartext.corner_rounding import CornerBuffer
 from core.controls.klartext.formulas import evaluate
@@ -274,7 +274,8 @@ class State:
             text = "The tool's radius is unknown. Write TOOL DEF and TOOL CALL, or give the tool's diameter."
             if self.tool:
                 text = f"The diameter of tool {self.tool} is unknown. Write TOOL DEF with its radius, or enter it."
-            self.stop("TOOL", text, block, "RL" if self.side > 0 else "RR")
+            column = block.column_of("RL" if self.side > 0 else "RR")
+            self.log.stop("TOOL", text, block.line, column, tool=tool_id(self.tool or "1"))
         if self.radius < 0.0:
             text = "Tool radius {0} with its deltas is negative: the tool runs on the other side of the contour."
             self.tell(Severity.WARNING, "TOOL", text, block, "", self.radius)

@@ -200,7 +200,7 @@ class Fanuc(VectorQueue, Control):
             self.log.tell(Severity.INFO, "D-AS-T", text, line, column)
         if radius is None:
             text = f"Offset {number} is not in the tool table. Enter its tool or write another D."
-            self.log.stop("PS0030", text, line, column)
+            self.log.stop("PS0030", text, line, column, tool=number)
         self.note_radius(radius, "FN-D2", "The radius is negative, so G41 and G42 change places.", line, column)
         machine.compare_offset(radius, f"D{number}", line, column)
         return radius

@@ -181,7 +181,8 @@ class LinuxCnc(OneMoveQueue, Control):
             text = "G4 needs P and the seconds to wait."
             self.log.stop("N-WORDALONE", text, block.line, block.column("G", 40))
         if "H" in block.words and _lacks(self.machine.tools, block.words["H"]):
-            self.log.stop("TOOL", missing_tool(whole(block.words["H"])), block.line, block.column("H"))
+            number = whole(block.words["H"])
+            self.log.stop("TOOL", missing_tool(number), block.line, block.column("H"), tool=number)
 
     def _alone(self, block: Block) -> None:
         """Check that calls and numbers of subprograms stand alone, and that only one G code takes the axis words."""
@@ -205,7 +206,7 @@ class LinuxCnc(OneMoveQueue, Control):
             text = "M61 needs Q and the number of the tool that is in the spindle."
             self.log.stop("N-WORDALONE", text, block.line, block.column("M", _SET_TOOL_CODE))
         if number and self.machine.tools.get(number) is None:
-            self.log.stop("TOOL", missing_tool(number), block.line, block.column("Q"))
+            self.log.stop("TOOL", missing_tool(number), block.line, block.column("Q"), tool=number)
         self.machine.tool = number
         self.tool_changed()
 
@@ -286,7 +287,7 @@ class LinuxCnc(OneMoveQueue, Control):
                 text = "No tool is loaded, so the radius is 0."
                 self.machine.nothing_compensated(text, block.line, block.side_column())
                 return 0.0, 0
-            self.log.stop("N-DBIG", missing_tool(number), block.line, block.column("D"))
+            self.log.stop("N-DBIG", missing_tool(number), block.line, block.column("D"), tool=number)
         if tool.orientation not in (0, 9) and self.machine.plane is not Plane.ZX:
             text = "The tool is a lathe tool and needs the plane G18."
             self.log.stop("N-ORIENTATION", text, block.line, block.side_column())

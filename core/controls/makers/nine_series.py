@@ -143,7 +143,7 @@ class NineSeries(ElementQueue, Control):
         tool = self.machine.tools.get(self.number)
         if tool is None:
             text = f"Offset {self.number} is not entered; enter its radius or write another D."
-            self.log.stop("TOOL", text, block.line, block.column("DG"))
+            self.log.stop("TOOL", text, block.line, block.column("DG"), tool=self.number)
         radius = tool.diameter_mm(self.machine.unit) / 2
         text = "The radius is negative: the tool runs on the other side."
         self.note_radius(radius, "R4", text, block.line, block.column("DG"))

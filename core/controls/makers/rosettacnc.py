@@ -107,7 +107,7 @@ class RosettaCnc(Control):
         tool = machine.tools.get(number)
         if tool is None and number:
             column = block.column("D") if "D" in block.words else block.side_column()
-            log.stop("C1", missing_tool(number), block.line, column)
+            log.stop("C1", missing_tool(number), block.line, column, tool=number)
         if tool is None and "I" not in block.words:
             text = "No tool is loaded and there is no D, so the radius is 0."
             machine.nothing_compensated(text, block.line, block.side_column())

@@ -162,7 +162,7 @@ class ThreeBlock(ElementQueue, Control):
             text = f"The diameter of tool {self.machine.tool} is not entered; write T1/length/diameter before."
             if self.machine.tool == 0:
                 text = "The tool number must come before G41 or G42. Write T and the number."
-            self.log.stop("B5-TOOL", text, block.line, block.side_column())
+            self.log.stop("B5-TOOL", text, block.line, block.side_column(), tool=self.machine.tool or None)
         diameter = tool.diameter_mm(self.machine.unit)
         if abs(diameter) > LARGEST_DIAMETER + 1e-6:
             text = "The diameter {0} is beyond the largest of this control, {1}."
