@@ -103,42 +103,25 @@ def continuing(records: Iterable[Record], place: Place, time: str) -> Iterator[R
 
 
 def records_between(old: Work, new: Work) -> list[Record] | None:
-    """Return the edits that lead from `old` to `new`, empty if they are equal; None if `old` does not lead to `new`."""
-    common = _common_steps(old.past, new.past)
-    records: list[Record] = []
-    current, ahead = old, new
-    while len(current.past) > common:
-        current = current.undo()
-        records.append({"undo": 1})
-    while len(ahead.past) > common:
-        ahead = ahead.undo()
-    for _ in new.past[common:]:
-        before, ahead = ahead, ahead.redo()
-        redone = current.redo()
-        if _same_up_to_here(redone, ahead):
-            records.append({"redo": 1})
-            current = redone
-        else:
-            records.append(_edit(before, ahead))
-            current = _without_future(ahead)
-    return records if _same_up_to_here(current, new) and current.future == new.future else None
+    """Return the edit, undo or redo that leads from `old` to `new`, nothing if they are equal; None if one does not."""
+    if _same(old, new):
+        return []
+    if _same(old.undo(), new):
+        return [{"undo": 1}]
+    if _same(old.redo(), new):
+        return [{"redo": 1}]
+    edited = new.past and not new.future and _same_up_to_here(new.undo(), old)
+    return [_edit(old, new)] if edited else None
 
 
-def _common_steps(old: tuple[object, ...], new: tuple[object, ...]) -> int:
-    """Return how many steps both begin with; nearly always all of the shorter one."""
-    shorter = min(len(old), len(new))
-    if old[:shorter] == new[:shorter]:
-        return shorter
-    return next(index for index in range(shorter) if old[index] != new[index])
+def _same(first: Work, second: Work) -> bool:
+    """True if the content, and all that can be undone and redone, are the same."""
+    return _same_up_to_here(first, second) and first.future == second.future
 
 
 def _same_up_to_here(first: Work, second: Work) -> bool:
     """True if the content and all that can be undone are the same."""
     return first.past == second.past and _content(first) == _content(second)
-
-
-def _without_future(work: Work) -> Work:
-    return History(work.program, work.past) if isinstance(work, History) else replace(work, future=())
 
 
 def _content(work: Work) -> object:

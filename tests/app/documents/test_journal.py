@@ -153,6 +153,13 @@ def test_an_edit_that_a_reader_takes_for_none_is_one_that_is_undone() -> None:
     assert result.undo().undo().undo().program == PART
 
 
+def test_several_steps_at_once_do_not_follow() -> None:
+    twice = typed(3.0)(typed(2.0)(History(PART)))
+    assert records_between(History(PART), twice) is None
+    assert records_between(twice, twice.undo().undo()) is None
+    assert records_between(twice.undo(), typed(4.0)(twice)) is None
+
+
 def test_a_history_of_another_program_does_not_follow() -> None:
     assert records_between(History(PART), History(program(line(x_end=7.0)))) is None
 
