@@ -238,7 +238,7 @@ class KeptCopy:
 
     def sentence(self, today: str) -> str:
         """Describe the copy for the operator."""
-        return f"Unsaved work on {self.name}, {self.word} {times.in_words(self.time, today)}."
+        return f"Unsaved work on {self.name}, {self.word} {times.short(self.time, today)}."
 
 
 def kept_copies(folder: Path, state: Path) -> list[KeptCopy]:

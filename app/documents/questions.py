@@ -83,8 +83,8 @@ def person(owner: Owner) -> str:
 
 def held_sentence(owner: Owner, today: str) -> str:
     """Return the sentence that says who has a document open, and since when."""
-    when = times.in_words(owner.since, today).removeprefix("at ").removeprefix("on ")
-    return f"{person(owner)} has had this program open{f' since {when}' if owner.since else ''}."
+    since = f" since {times.short(owner.since, today)}" if owner.since else ""
+    return f"{person(owner)} has had this program open{since}."
 
 
 def whole_name(path: Path) -> str:
@@ -202,7 +202,7 @@ def changed_meanwhile(
         # perhaps nobody has changed it: it could not be read when it was opened either
         title, word, first = "REPLACE THE FILE?", FILE_AS_IT_IS, f"{name} cannot be read. It was written {written}."
     else:
-        title, word, first = "CHANGED MEANWHILE", THEIRS, f"{name} was changed by somebody else {written}."
+        title, word, first = "CHANGED MEANWHILE", THEIRS, f"{name} was changed by somebody else, {written}."
     answers = (
         Answer(YOURS, "the other one is kept under another name"),
         Answer(word, f"yours is saved as {whole_name(copy)}"),

@@ -652,7 +652,7 @@ class DocumentService:
         now = stamp_of_data(data, status.st_mtime_ns)
         if then is not None and now.same_content(then):
             return None
-        written = times.in_words(times.of(now.changed), today)
+        written = times.short(times.of(now.changed), today)
         return questions.changed_meanwhile(document, written, copy, document.compared(data))
 
     def _write_file(

@@ -20,17 +20,6 @@ def of(nanoseconds: int) -> str:
         return ""
 
 
-def in_words(text: str, today: str) -> str:
-    """Return `at 14:05` if today, else `on 3 May 2025 at 14:05`; `at` and the text if it cannot be read."""
-    try:
-        time, day = datetime.fromisoformat(text), datetime.fromisoformat(today)
-    except ValueError:
-        return f"at {printable(text) or 'an unknown time'}"
-    if time.date() == day.date():
-        return f"at {time:%H:%M}"
-    return f"on {time.day} {time:%b %Y} at {time:%H:%M}"
-
-
 def short(text: str, today: str) -> str:
     """Return `12:32 today`, or `3 May 2025 12:32` for another day; the text itself if it cannot be read."""
     try:

@@ -11,7 +11,7 @@ from tests.app.widget_pilot import operator
 
 
 async def test_a_question_with_many_lines_shows_all_its_answers_at_60x20() -> None:
-    lines = ["part.toml was changed by somebody else at 23:37.", *(f"difference {number}" for number in range(11))]
+    lines = ["part.toml was changed by somebody else, 23:37 today.", *(f"difference {number}" for number in range(11))]
     answers = [
         Answer("YOURS", "the other one is kept under another name"),
         Answer("THEIRS", f"saved as {'x' * 33}.toml"),
