@@ -66,7 +66,7 @@ def _refuse_alarm(result: ControlRun) -> None:
     errors = [finding for finding in result.findings if finding.severity is Severity.ERROR]
     why = next((finding for finding in errors if finding.line == result.stopped_at), errors[0] if errors else None)
     words = "" if why is None else f": {sentence(why, result.unit)}"
-    raise NcError(f"{display_name(result.control)} stops at line {result.stopped_at}{words}", tool=why and why.tool)
+    raise NcError(f"{display_name(result.control)} stops at line {result.stopped_at}{words}", tool=None if why is None else why.tool)
 
 
 def _run_notes(result: ControlRun) -> tuple[str, ...]:

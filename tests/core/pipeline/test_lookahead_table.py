@@ -4,7 +4,7 @@ from dataclasses import fields, replace
 
 import pytest
 
-from core.comp.lookahead import recommended
+from core.advice.lookahead_table import recommended
 from core.output.passes import meets_solid
 from core.pipeline.derive import advice_for_block, cutting_setup, derive, look_ahead_table
 from core.pipeline.jobs import job
