@@ -30,13 +30,16 @@ from app.documents.survey import (
 from app.screens.base import NO_LIST_KEYS, BaseScreen
 from app.session.messages import Sentence, Tone
 from app.session.words import counted, length
+from app.widgets.about import About
 from app.widgets.drawing import Drawable, Drawing
 from app.widgets.option_rows import TypedLetters
 from app.widgets.plain import PlainText
 from app.widgets.row_table import RowTable
 from app.widgets.softkeys import Softkey
 from app.widgets.verdict import MARKS_OF_CHARACTERS, verdict_word
+from core.pipeline.derived import Derived
 from core.program.file.read import StoreError
+from core.units import Unit
 
 COLUMNS: Final = (("PROGRAM", 17), ("CHANGED", 11), ("BLK", 3), ("TOOLS", 6), ("VERDICT", 12))
 PROMPT: Final = "Up and down choose, Enter opens. Letters jump to a name. F2 starts a new part in inch, F3 in mm."
@@ -77,6 +80,7 @@ class HomeScreen(BaseScreen):
         with Vertical(id="files", classes="panel -bare"):
             yield PlainText(id="folder", classes="head")
             yield RowTable(id="programs", cursor_type="row")
+            yield About(id="file-about", classes="about")
         yield Drawing(id="preview")
 
     def on_mount(self) -> None:
@@ -185,7 +189,7 @@ class HomeScreen(BaseScreen):
         if each is not None and each.program:
             self._preview(each.path, each.name)
         elif each is not None:
-            self._show_preview(each.path, each.name, None)
+            self._show_preview(each.path, each.name)
         self.refresh_frame()
 
     @work(exclusive=True, group="preview")
@@ -193,12 +197,16 @@ class HomeScreen(BaseScreen):
         """Draw the first block of the program with the cursor."""
         self._show_preview(path, *await to_thread(_first_block, path, name))
 
-    def _show_preview(self, path: Path, heading: str, subject: Drawable | None) -> None:
+    def _show_preview(
+        self, path: Path, heading: str, subject: Drawable | None = None, derived: Derived | None = None
+    ) -> None:
         """Show the drawing of a file unless the cursor has left it."""
         if not self.stands or self.chosen is None or self.chosen.path != path:
             return
         drawing = self.query_one("#preview", Drawing)
         drawing.heading, drawing.subject = heading, subject
+        unit = Unit.IN if derived is None else derived.program.unit
+        self.query_one(About).show(None if derived is None else derived.block(1), unit, self.host.characters)
 
     # ---- keys
 
@@ -243,8 +251,8 @@ class HomeScreen(BaseScreen):
         return Sentence(trouble, Tone.WARNING) if trouble else Sentence(PROMPT)
 
 
-def _first_block(path: Path, name: str) -> tuple[str, Drawable | None]:
-    """Return the heading and the subject of a program's drawing; without a subject if it cannot be read."""
+def _first_block(path: Path, name: str) -> tuple[str, Drawable | None, Derived | None]:
+    """Return the heading and subject of a program's drawing and what is derived; only a heading if unreadable."""
     # imported here: the first paint must not load numpy and shapely
     from core.pipeline.derive import derive
     from core.pipeline.plot import Subject
@@ -252,8 +260,8 @@ def _first_block(path: Path, name: str) -> tuple[str, Drawable | None]:
     try:
         derived = derive(load(path))
     except StoreError:
-        return name, None
+        return name, None, None
     block, unit = derived.block(1), derived.program.unit
     tool = "" if block.radius is None else f", tool {length(2 * block.radius, unit)}"
     of = "" if len(derived.blocks) == 1 else f"block 1 of {len(derived.blocks)}: "
-    return f"{name}  {of}{len(block.block.segments)} segments{tool}", Subject(block, unit)
+    return f"{name}  {of}{len(block.block.segments)} segments{tool}", Subject(block, unit), derived

@@ -5,21 +5,24 @@ from __future__ import annotations
 from asyncio import to_thread
 from typing import ClassVar
 
-from textual import on, work
+from textual import events, on, work
 from textual.app import ComposeResult
 from textual.binding import Binding, BindingType
 from textual.containers import Horizontal, Vertical
 from textual.content import Content
-from textual.widgets import DataTable, Label
+from textual.widgets import DataTable, Label, OptionList
 
 from app.documents.survey import outcome_of
 from app.screens.base import BaseScreen
+from app.session.block_findings import block_findings
 from app.session.derivation import times_in_words
 from app.session.guide import on_program
 from app.session.messages import Sentence
 from app.session.session import Session
 from app.session.words import counted
+from app.widgets.about import About
 from app.widgets.drawing import Drawing
+from app.widgets.findings_list import FindingsList
 from app.widgets.plain import PlainLabel
 from app.widgets.row_table import RowTable
 from app.widgets.softkeys import Softkey
@@ -71,6 +74,8 @@ class ProgramScreen(BaseScreen):
                 yield PlainLabel(id="block-count", classes="head-kind")
                 yield PlainLabel(id="program-file", classes="head-note")
             yield RowTable(id="blocks", cursor_type="row")
+            yield About(id="program-about", classes="about")
+            yield FindingsList(id="program-findings", classes="panel")
         yield Drawing(id="block-drawing")
 
     def on_mount(self) -> None:
@@ -147,9 +152,24 @@ class ProgramScreen(BaseScreen):
         if self.chosen > len(session.derived.blocks):
             return
         block = session.derived.block(self.chosen)
-        times = self.times.get(block.number)
+        times = self.times.get(block.number, "")
+        self.query_one(About).show(block, session.program.unit, self.host.characters, times)
+        findings = self.query_one(FindingsList)
+        if findings.display:
+            table = session.lookahead_table if block is session.derived_block else None
+            findings.entries = block_findings(block, table, session.program.unit)
         drawing.heading = f"BLOCK {block.number}{f'  {times}' if times else ''}"
         drawing.subject = Subject(block, session.program.unit)
+
+    @on(events.Resize)
+    def _fill(self) -> None:
+        """Show the findings on a terminal that has become large enough for them."""
+        self.call_after_refresh(self._draw)
+
+    @on(OptionList.OptionSelected)
+    def _edit_finding(self, event: OptionList.OptionSelected) -> None:
+        """Go to the field that the finding is about."""
+        self.host.go_to(self.query_one(FindingsList).entries[event.option_index])
 
     @on(DataTable.RowSelected)
     def _edit_block(self, event: DataTable.RowSelected) -> None:

@@ -15,9 +15,11 @@ from app.screens.form_screen import FormScreen
 from app.screens.values import cell_of, unusable
 from app.session.messages import Sentence, Tone
 from app.session.session import Session
+from app.widgets.drawing import Drawing
 from app.widgets.field import Cell, ChoiceField, NumberField, State
 from app.widgets.plain import PlainLabel, PlainText
 from app.widgets.softkeys import Softkey
+from core.pipeline.derived import DerivedBlock
 from core.program.edit import Edited, Refused, delete_tool, set_tool
 from core.program.fields import TOOL, Field, read_typed
 from core.program.model import Coolant, Number, Program, Tool, Typed
@@ -89,6 +91,11 @@ class ToolsScreen(FormScreen):
         Softkey("BACK", "app.back", "BACK"),
     )
 
+    def __init__(self) -> None:
+        super().__init__()
+        self._drawn: tuple[Tool | None, DerivedBlock | None] | None = None
+        """The tool and the block that the drawing shows."""
+
     def compose_body(self) -> ComposeResult:
         """Lay out the title, the headings, the rows, and the use of the tool."""
         with Vertical(id="tools", classes="panel -bare"):
@@ -100,7 +107,9 @@ class ToolsScreen(FormScreen):
             with VerticalScroll(id="tool-rows", can_focus=False):
                 yield from self._rows(self.host.session)
                 yield PlainText(EMPTY_PROMPT, id="no-tools")
-        yield PlainText(id="tool-use")
+        with Vertical(id="tool-side"):
+            yield Drawing(id="tool-drawing")
+            yield PlainText(id="tool-use", classes="panel")
 
     def _rows(self, session: Session) -> list[ToolRow]:
         self._numbers = [tool.number for tool in session.program.tools]
@@ -226,6 +235,21 @@ class ToolsScreen(FormScreen):
         panel = self.query_one("#tool-use", Static)
         if str(panel.content) != text:
             panel.update(text, layout=False)
+        self._draw_use(tool)
+
+    def _draw_use(self, tool: Tool | None) -> None:
+        """Draw the first block that uses the tool, with the cutter on START, where there is room for a drawing."""
+        drawing, derived = self.query_one("#tool-drawing", Drawing), self.current_session.derived
+        used = [] if tool is None else [at for _, blocks in _calls(derived.program, tool.number) for at in blocks]
+        block = derived.block(used[0]) if used else None
+        if not drawing.display or self._drawn == (tool, block):
+            return
+        # imported here: the first paint must not load numpy and shapely
+        from core.pipeline.plot import Subject
+
+        self._drawn = tool, block
+        drawing.heading = "DRAWING" if block is None else f"BLOCK {block.number}"
+        drawing.subject = None if block is None else Subject(block, derived.program.unit, segment=0)
 
     # ---- softkeys
 
@@ -315,12 +339,20 @@ def _use_text(program: Program, number: int) -> str:
 
 
 def _uses(program: Program, number: int) -> list[str]:
-    """Return the calls of a tool as the tool and as the finish tool, each with its blocks."""
+    """Return the calls of a tool as the tool and as the finish tool, each with its blocks, as texts."""
+    return [
+        f"{what} of block{'s' if blocks[1:] else ''} {', '.join(map(str, blocks))}"
+        for what, blocks in _calls(program, number)
+        if blocks
+    ]
+
+
+def _calls(program: Program, number: int) -> tuple[tuple[str, list[int]], ...]:
+    """Return TOOL and FINISH TOOL, each with the blocks that call this tool there."""
 
     def called(value: object) -> bool:
         return isinstance(value, Number) and value.value == number
 
-    roughing = [str(at) for at, block in enumerate(program.blocks, 1) if called(block.tool)]
-    finishing = [str(at) for at, block in enumerate(program.blocks, 1) if called(block.finish_tool)]
-    calls = (("TOOL", roughing), ("FINISH TOOL", finishing))
-    return [f"{what} of block{'s' if blocks[1:] else ''} {', '.join(blocks)}" for what, blocks in calls if blocks]
+    roughing = [at for at, block in enumerate(program.blocks, 1) if called(block.tool)]
+    finishing = [at for at, block in enumerate(program.blocks, 1) if called(block.finish_tool)]
+    return ("TOOL", roughing), ("FINISH TOOL", finishing)

@@ -385,6 +385,19 @@ async def test_tool_setup_names_all_blocks_that_use_a_tool():
         assert str(user.screen.query_one("#tool-use", Static).content) == "TOOL 1\nTOOL of blocks 1, 2"
 
 
+async def test_tool_setup_draws_a_block_that_uses_the_tool_where_there_is_room():
+    async with operator("flange", size=(132, 43)) as user:
+        await run(user, "app.tools")
+        drawing = user.screen.query_one("#tool-drawing", Drawing)
+        assert (drawing.heading, drawing.drawn is None) == ("BLOCK 1", False)
+        await user.press("down")
+        await everything(user)
+        assert drawing.heading == "BLOCK 2"
+        await user.press("f2")
+        await everything(user)
+        assert (drawing.heading, drawing.drawn) == ("DRAWING", None), "a new tool is not used"
+
+
 async def test_unreadable_and_inconsistent_numbers_keep_the_small_form_open():
     async with operator() as user:
         await user.app.run_action("app.shift_block")

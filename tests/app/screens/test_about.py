@@ -1,0 +1,49 @@
+"""A wide terminal says below the list what the block or file with the cursor is."""
+
+from __future__ import annotations
+
+from textual.widgets import OptionList
+
+from app.screens.contour import ContourScreen
+from app.widgets.about import About
+from tests.app.screens.test_list_keys import run
+from tests.app.screens.test_native_screens import everything
+from tests.app.widget_pilot import Operator, operator
+
+
+def lines(user: Operator) -> list[str]:
+    return str(user.screen.query_one(About).content).split("\n")
+
+
+async def test_program_says_what_the_block_is_and_lists_its_findings_where_there_is_room():
+    async with operator(size=(200, 50)) as user:
+        await run(user, "app.program")
+        await everything(user)
+        assert lines(user)[:4] == [
+            "BLOCK 1   MILL CONTOUR  LEFT  CAL 8",
+            "CONTOUR   11 segments, closed, 15.4560 long",
+            "TOOL 1    END MILL  0.5000",
+            "LIMITS    X 0.2500 to 4.7500   Y 0.2500 to 3.5000",
+        ]
+        assert "DELETED 9" in lines(user)[4]
+        assert lines(user)[5].startswith("TIME      cut ")
+        findings = user.screen.query_one("#program-findings", OptionList)
+        assert findings.option_count == 3
+        findings.focus()
+        await user.press("enter")
+        assert isinstance(user.screen, ContourScreen)
+        assert user.session.place.segment == 8
+
+
+async def test_home_says_what_the_program_is():
+    async with operator(size=(132, 43)) as user:
+        await run(user, "app.home")
+        await user.press("p", "o")
+        await everything(user)
+        assert lines(user)[1] == "CONTOUR   11 segments, closed, 15.4560 long"
+
+
+async def test_the_lines_are_hidden_on_small_terminals():
+    async with operator() as user:
+        await run(user, "app.program")
+        assert not user.screen.query_one(About).display
