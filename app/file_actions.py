@@ -264,7 +264,7 @@ class FileActions(DerivationActions):
 
     async def ask(self, ask: Ask) -> str:
         """Ask a question and return the answer's word; call only in a worker."""
-        return await self.push_screen_wait(Question(ask.title, ask.lines, ask.answers, ask.safe, ask.details))
+        return await self.push_screen_wait(Question(ask.title, ask.lines, ask.answers, ask.safe))
 
     @work(group="question")
     async def open_file(self, path: Path, *, kept_copy: bool = False) -> None:

@@ -12,7 +12,6 @@ from app.documents.journal import Journal, Kind, Place
 from app.documents.lock import Owner
 from app.documents.nc_text import MAX_NC_BYTES, Change, NcText
 from app.documents.programs import empty_program
-from core.program import history as program_history
 from core.program.edit import FormPlace
 from core.program.file.read import StoreError, loads_bytes
 from core.program.file.write import dumps
@@ -124,26 +123,6 @@ class ContourDocument:
         except StoreError:
             return None
 
-    def differences(self, journal: Journal) -> tuple[str, ...]:
-        """Describe how a journal's program differs from this one; a new program is compared in the journal's units."""
-        mine, left = self.program, _history_of(journal).program
-        if mine.unit is not left.unit and self.is_new:
-            mine = empty_program(left.unit)
-        return program_history.differences(mine, left)
-
-    def compared(self, data: bytes) -> tuple[tuple[str, ...], tuple[str, ...]] | None:
-        """Describe how a file's program differs from the saved one, and how this program differs from the file's.
-
-        Return None if the file is not a program.
-        """
-        try:
-            theirs = loads_bytes(data, "")
-        except StoreError:
-            return None
-        return program_history.differences(self.saved_program, theirs), program_history.differences(
-            theirs, self.program
-        )
-
 
 def _history_of(journal: Journal) -> History:
     if not isinstance(journal.work, History):
@@ -215,16 +194,6 @@ class NcDocument:
         text = NcText.read(data, self.text.encoding)
         same = text.encoding == self.text.encoding
         return self.text.done(Change(0, self.text.lines, text.lines)) if same else None
-
-    def differences(self, journal: Journal) -> tuple[str, ...]:
-        """Describe how a journal's lines differ from these."""
-        return nc_journal.differences(self.text, _text_of(journal))
-
-    def compared(self, data: bytes) -> tuple[tuple[str, ...], tuple[str, ...]] | None:
-        """Describe how a file's lines differ from the file as opened, and how these lines differ from the file's."""
-        theirs = NcText.read(data)
-        opened = NcText.read(self.text.origin)
-        return nc_journal.differences(opened, theirs, "was"), nc_journal.differences(theirs, self.text, "theirs")
 
 
 def _text_of(journal: Journal) -> NcText:

@@ -1,23 +1,17 @@
-"""This module turns edits of an NC text into plain values for JSON and back, and describes how two texts differ."""
+"""This module turns edits of an NC text into plain values for JSON and back."""
 
 from __future__ import annotations
 
 import zlib
 from base64 import b85decode, b85encode
-from collections.abc import Iterator, Sequence
 from dataclasses import replace
-from difflib import SequenceMatcher
 from typing import Final
 
 from app.documents.journal_file import DamagedError
 from app.documents.nc_text import MAX_NC_BYTES, Change, NcText
-from core.program.history import splice
-from core.units import printable
 
 NEVER_SAVED: Final = Change(-1, (), ())
 """The `saved` change of a text none of whose states any file holds."""
-MAX_COMPARED_LINES: Final = 500
-"""The most differing lines that are described line by line."""
 
 
 def packed(text: NcText) -> list[str]:
@@ -72,30 +66,3 @@ def known_in_file(work: NcText, file: NcText) -> NcText:
         if lines == wanted and work.encoding == file.encoding:
             return replace(work, saved=change)
     return work
-
-
-def differences(file: NcText, work: NcText, other: str = "in the file") -> tuple[str, ...]:
-    """Describe line by line how the work differs from the file; for long differences, only the range of lines.
-
-    `other` says in the sentence on a line where its other text is from.
-    """
-    change = splice(*(tuple(text.text(row) for row in range(len(text))) for text in (file, work)))
-    first, old, new = change.at, change.old, change.new
-    if max(len(old), len(new)) > MAX_COMPARED_LINES:
-        if not new:
-            return (f"Lines {first + 1} to {first + len(old)} of the file are deleted.",)
-        return (f"Lines {first + 1} to {first + len(new)} differ from the file.",)
-    return tuple(_compared(old, new, first + 1, other))
-
-
-def _compared(old: Sequence[str], new: Sequence[str], first: int, other: str) -> Iterator[str]:
-    for kind, a, b, c, d in SequenceMatcher(None, old, new, autojunk=False).get_opcodes():
-        if kind == "equal":
-            continue
-        for row in range(max(b - a, d - c)):
-            if a + row >= b:
-                yield f"Line {first + c + row} is new: {printable(new[c + row])}"
-            elif c + row >= d:
-                yield f"Line {first + a + row} of the file is deleted: {printable(old[a + row])}"
-            else:
-                yield f"Line {first + c + row}: {printable(new[c + row])} ({other}: {printable(old[a + row])})"

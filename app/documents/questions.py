@@ -37,10 +37,6 @@ THEIRS: Final = "THEIRS"
 FILE_AS_IT_IS: Final = "FILE AS IT IS"
 ADD: Final = "ADD"
 NEW_PROGRAM: Final = "NEW PROGRAM"
-MAX_DIFFERENCES: Final = 6
-"""The most differences that a question lists."""
-FEW_DIFFERENCES: Final = 3
-"""The most differences of each version in a question that compares two."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -53,16 +49,12 @@ class Answer:
 
 @dataclass(frozen=True, slots=True)
 class Ask:
-    """A question: its title, the lines (what would be lost comes first), the answers, the word of the preselected one.
-
-    `details` are listed under the lines if there is room.
-    """
+    """A question: its title, the lines (what would be lost first), the answers, the word of the preselected one."""
 
     title: str
     lines: tuple[str, ...]
     answers: tuple[Answer, ...]
     safe: str = GO_BACK
-    details: tuple[str, ...] = ()
 
 
 # ---- names
@@ -90,12 +82,6 @@ def held_sentence(owner: Owner, today: str) -> str:
 def whole_name(path: Path) -> str:
     """Return a file's full name without control characters."""
     return printable_path(path.name)
-
-
-def shortened(details: Sequence[str], most: int) -> tuple[str, ...]:
-    """Return the first `most` details and how many more there are."""
-    rest = len(details) - most
-    return tuple(details) if rest <= 0 else (*details[:most], f"And {rest} more.")
 
 
 # ---- before an import
@@ -189,34 +175,24 @@ def taken_over(path: Path, owner: Owner, copy: Path) -> Ask:
     return Ask("TAKEN OVER: SAVE ANYWAY?", lines, answers, safe=KEEP_BOTH)
 
 
-def changed_meanwhile(
-    document: Document, written: str, copy: Path, compared: tuple[tuple[str, ...], tuple[str, ...]] | None
-) -> Ask:
+def changed_meanwhile(document: Document, written: str, copy: Path, *, readable: bool) -> Ask:
     """Ask which version gets the name if the file differs from what was read; both versions are kept.
 
-    `written` is when the file was changed, in words; `compared` is what differs, None if the file cannot be read.
+    `written` is when the file was changed, in words; `readable`: the file can be opened as a document of this kind.
     """
     name = name_of(document)
-    unread = document.file.stamp is None and compared is None
-    if unread:
+    if document.file.stamp is None and not readable:
         # perhaps nobody has changed it: it could not be read when it was opened either
         title, word, first = "REPLACE THE FILE?", FILE_AS_IT_IS, f"{name} cannot be read. It was written {written}."
     else:
         title, word, first = "CHANGED MEANWHILE", THEIRS, f"{name} was changed by somebody else, {written}."
+        first += "" if readable else " It is no program any more."
     answers = (
         Answer(YOURS, "the other one is kept under another name"),
         Answer(word, f"yours is saved as {whole_name(copy)}"),
     )
     lines = (first, "Which one gets the name? Both are kept.")
-    return Ask(title, lines, answers, details=() if unread else _versions(compared))
-
-
-def _versions(compared: tuple[tuple[str, ...], tuple[str, ...]] | None) -> tuple[str, ...]:
-    if compared is None:
-        return ("It is no program any more.",)
-    theirs, yours = compared
-    since = shortened(theirs, FEW_DIFFERENCES) or ("It holds the same as when it was opened.",)
-    return (*since, *(("Yours, compared with it:", *shortened(yours, FEW_DIFFERENCES)) if yours else ()))
+    return Ask(title, lines, answers)
 
 
 # ---- when a file is opened
@@ -259,21 +235,12 @@ def unsaved_work(
         refusal = Answer(DISCARD, "kept as a backup; Ctrl+O lists it")
     else:
         refusal = Answer(NOT_MINE, "it stays kept for its owner")
-    details = shortened(document.differences(journal), MAX_DIFFERENCES)
-    compared = (f"Compared with {_compared_with(document)}:", *details) if details else ()
-    return Ask("UNSAVED WORK FOUND", tuple(lines), (Answer(RESTORE), refusal), safe=RESTORE, details=compared)
+    return Ask("UNSAVED WORK FOUND", tuple(lines), (Answer(RESTORE), refusal), safe=RESTORE)
 
 
 def _written_since(document: Document, journal: Journal) -> bool:
     now, then = document.file.stamp, journal.head.stamp
     return document.file.path is not None and now is not None and (then is None or not now.same_content(then))
-
-
-def _compared_with(document: Document) -> str:
-    if document.file.stamp is not None:
-        return "the saved file"
-    title = getattr(document, "title", "")
-    return f"the example {title}" if title else "a new program"
 
 
 def unreadable_work(document: Document, path: Path, left: Unreadable, today: str) -> Ask:

@@ -653,7 +653,7 @@ class DocumentService:
         if then is not None and now.same_content(then):
             return None
         written = times.short(times.of(now.changed), today)
-        return questions.changed_meanwhile(document, written, copy, document.compared(data))
+        return questions.changed_meanwhile(document, written, copy, readable=_readable(document, data))
 
     def _write_file(
         self, kept: _Kept, document: AnyDocument, path: Path, theirs: Path | None, *, link_agreed: bool = False
@@ -754,6 +754,15 @@ def _real_path(path: Path | None) -> str | None:
     except OSError:
         # the current folder is gone
         return str(path)
+
+
+def _readable(document: Document, data: bytes) -> bool:
+    """True if a file's content can be opened as a document of this kind."""
+    try:
+        type(document).read(data, document.file)
+    except StoreError:
+        return False
+    return True
 
 
 def _leads_elsewhere(path: Path) -> bool:

@@ -5,7 +5,6 @@ from __future__ import annotations
 from abc import abstractmethod
 from collections.abc import Callable, Collection, Sequence
 from dataclasses import dataclass
-from textwrap import wrap
 from typing import Any, ClassVar, Final, TypeVar
 
 from textual import events, on
@@ -26,8 +25,6 @@ from core.units import Kind, Unit, Unreadable, parse
 
 TALL = 16
 """Rows of the terminal from which a question has blank lines."""
-MORE = "And more."
-"""Shown in place of details that do not fit."""
 LINES_UP_AND_DOWN: Final[list[BindingType]] = [
     Binding("down", "app.focus_next", "Next", show=False),
     Binding("up", "app.focus_previous", "Before", show=False),
@@ -66,23 +63,20 @@ class Dialog(ModalScreen[Result]):
 class Question(Dialog[str]):
     """A question: its title, what would be lost, and the answers; the result is the word of the chosen answer.
 
-    As many `details` as fit follow the lines.  `safe` is the word of the preselected answer.  Esc and F8 answer
-    GO BACK.
+    `safe` is the word of the preselected answer.  Esc and F8 answer GO BACK.
     """
 
     BINDINGS: ClassVar[list[BindingType]] = [Binding("ctrl+q", "none", "Go back", show=False)]
     NOTHING: ClassVar[str] = GO_BACK
 
-    def __init__(
-        self, title: str, lines: Sequence[str], answers: Sequence[Answer], safe: str, details: Sequence[str] = ()
-    ) -> None:
-        super().__init__(title, classes="-wide" if details else "")
-        self.lines, self.details, self.safe = tuple(lines), tuple(details), safe
+    def __init__(self, title: str, lines: Sequence[str], answers: Sequence[Answer], safe: str) -> None:
+        super().__init__(title)
+        self.lines, self.safe = tuple(lines), safe
         self.answers = (*answers, Answer(GO_BACK, "nothing changes"))
 
     def compose_box(self) -> ComposeResult:
         """Lay out what would be lost, then one answer per line."""
-        yield PlainText("\n".join((*self.lines, *self.details)), id="loss")
+        yield PlainText("\n".join(self.lines), id="loss")
         yield OptionRows(*(Option(_line(answer), id=answer.word) for answer in self.answers), id="answers")
 
     def on_mount(self) -> None:
@@ -107,24 +101,7 @@ class Question(Dialog[str]):
     def _resized(self) -> None:
         if self._box is not None:
             self._box.set_class(self.size.height < TALL, "-tight")
-            self.call_after_refresh(self._fit)
-
-    def _fit(self) -> None:
-        """Show as many details as fit, and say so if some do not."""
-        box = self._box
-        if box is None:
-            return
-        loss = next(iter(box.query("#loss").results(Static)), None)
-        if loss is None:
-            # the dialog is leaving
-            return
-        frame = box.region.height - box.size.height
-        room = self.size.height - frame - (box.virtual_size.height - loss.size.height)
-        visible = list(self.details)
-        while visible and _rows((*self.lines, *visible), loss.size.width) > room:
-            visible = [*visible[: -2 if visible[-1] == MORE else -1], MORE] if len(visible) > 1 else []
-        loss.update("\n".join((*self.lines, *visible)))
-        self.call_after_refresh(self._show_title)
+            self.call_after_refresh(self._show_title)
 
     def _show_title(self) -> None:
         if self._box is not None:
@@ -143,11 +120,6 @@ class Question(Dialog[str]):
         if word is not None and self.readable:
             event.stop()
             self.dismiss(word)
-
-
-def _rows(lines: Sequence[str], width: int) -> int:
-    """Return the number of rows that wrapped lines take."""
-    return sum(max(1, len(wrap(line, max(width, 1)))) for line in lines)
 
 
 def _line(answer: Answer) -> str:

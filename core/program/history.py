@@ -1,16 +1,11 @@
-"""This module keeps programs for undo and redo, and describes the differences of two programs for the operator."""
+"""This module keeps programs for undo and redo."""
 
 from __future__ import annotations
 
-from collections.abc import Iterator
 from dataclasses import dataclass
-from enum import StrEnum
 from typing import Generic, TypeVar
 
-from core.program.edit import set_unit
-from core.program.fields import STORED_FIELDS, Form, form_of
-from core.program.model import Block, Number, PartSetup, Program, ProgramParameters, Relative, Segment, Tool, Unread
-from core.units import Kind, Unit, printable, show
+from core.program.model import Program
 
 
 @dataclass(frozen=True, slots=True)
@@ -72,8 +67,6 @@ class History:
 
 Item = TypeVar("Item")
 
-FormPart = Block | Segment | Tool | ProgramParameters | PartSetup
-
 
 @dataclass(frozen=True, slots=True)
 class Splice(Generic[Item]):
@@ -96,92 +89,3 @@ def splice(old: tuple[Item, ...], new: tuple[Item, ...]) -> Splice[Item]:
 def same(first: object, second: object) -> bool:
     """True if two parts are equal; fast if they are the same object."""
     return first is second or first == second
-
-
-def differences(old: Program, new: Program) -> tuple[str, ...]:
-    """Return a sentence for each difference in fields, segments, blocks and tools; none if the programs are equal."""
-    return tuple(_differences(old, new))
-
-
-def _differences(old: Program, new: Program) -> Iterator[str]:
-    if old.unit is not new.unit:
-        yield f"Program units: {new.unit}, was {old.unit}."
-        old = set_unit(old, new.unit)
-    yield from _fields("PROGRAM PARAMETERS", Form.PARAMETERS, old.parameters, new.parameters, new.unit)
-    yield from _fields("PART SETUP", Form.SETUP, old.setup, new.setup, new.unit)
-    yield from _tools(old, new)
-    yield from _blocks(old.blocks, new.blocks, new.unit)
-
-
-def _fields(where: str, form: Form, old: FormPart, new: FormPart, unit: Unit) -> Iterator[str]:
-    for field in STORED_FIELDS[form]:
-        before, after = getattr(old, field.name), getattr(new, field.name)
-        if before != after:
-            yield f"{where}: {field.label} {_text(after, field.kind, unit)}, was {_text(before, field.kind, unit)}."
-    if getattr(old, "choice", None) != getattr(new, "choice", None):
-        yield f"{where}: solution changed."
-
-
-def _text(value: object, kind: Kind, unit: Unit) -> str:
-    match value:
-        case Number(number):
-            return show(number, kind, unit)
-        case Relative(number):
-            return f"I{show(number, kind, unit)}"
-        case bool():
-            return "YES" if value else "NO"
-        case Unread(text):
-            return f"{printable(text)} (cannot be used)"
-        case None | "":
-            return "blank"
-        case StrEnum():
-            return value.value
-        case _:
-            return printable(str(value))
-
-
-def _tools(old: Program, new: Program) -> Iterator[str]:
-    before, after = ({tool.number: tool for tool in program.tools} for program in (old, new))
-    for number in sorted(before.keys() | after.keys()):
-        if number not in before:
-            yield f"Tool {number} is new."
-        elif number not in after:
-            yield f"Tool {number} is deleted."
-        else:
-            yield from _fields(f"Tool {number}", Form.TOOL, before[number], after[number], new.unit)
-
-
-def _blocks(old: tuple[Block, ...], new: tuple[Block, ...], unit: Unit) -> Iterator[str]:
-    middle = splice(old, new)
-    if len(middle.old) != len(middle.new):
-        yield _replaced("Block", "", middle.at, len(middle.old), len(middle.new))
-        return
-    for number, (before, after) in enumerate(zip(middle.old, middle.new, strict=True), middle.at + 1):
-        yield from _fields(f"Block {number}", Form.START, before, after, unit)
-        yield from _segments(f"Block {number}", before.segments, after.segments, unit)
-
-
-def _segments(where: str, old: tuple[Segment, ...], new: tuple[Segment, ...], unit: Unit) -> Iterator[str]:
-    middle = splice(old, new)
-    if len(middle.old) != len(middle.new):
-        yield _replaced("segment", f"{where}, ", middle.at, len(middle.old), len(middle.new))
-        return
-    for number, (before, after) in enumerate(zip(middle.old, middle.new, strict=True), middle.at + 1):
-        place, form = f"{where}, segment {number}", form_of(after)
-        if type(before) is type(after):
-            yield from _fields(place, form, before, after, unit)
-        else:
-            yield f"{place}: {form.value}, was {form_of(before).value}."
-
-
-def _replaced(thing: str, where: str, at: int, old: int, new: int) -> str:
-    """Describe how many items were deleted and inserted from index `at` on."""
-    if old == 0:
-        return f"{where}{_run(thing, at, new)} {'is' if new == 1 else 'are'} new."
-    if new == 0:
-        return f"{where}{_run(thing, at, old)} {'is' if old == 1 else 'are'} deleted."
-    return f"{where}{_run(thing, at, old)}: {old} replaced by {new}."
-
-
-def _run(thing: str, at: int, count: int) -> str:
-    return f"{thing} {at + 1}" if count == 1 else f"{thing}s {at + 1} to {at + count}"

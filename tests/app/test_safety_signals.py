@@ -194,7 +194,7 @@ def test_two_operators_of_one_file_both_keep_their_work(part: Path) -> None:
             second.until("TAKE OVER")
             assert "has had this program open since" in " ".join(second.text.split())
             second.send(b"t")
-            second.until("Block 1: TOOL 8, was 7.")
+            second.until("2 edits.")
             second.send(b"d")
             second.until("Kept as")
             second.send(b"9\t\x13")

@@ -102,7 +102,12 @@ def test_an_internal_fault_ends_with_an_error_status_and_keeps_the_work(tmp_path
         assert terminal.status() not in (0, None)
     assert [child.name for child in tmp_path.iterdir()] == [".part.toml.cutcomp-journal"]
     with running([*PROGRAM, str(part)]) as terminal:
-        terminal.until("Block 1: TOOL 7, was 1.")
+        terminal.until("1 edit.")
+        terminal.send(b"r")
+        terminal.until("Your work is back")
+        terminal.send(b"\x13")
+        terminal.until("Saved")
+    assert load(part).blocks[0].tool == Number(7.0)
 
 
 def test_control_characters_of_a_file_are_left_out(tmp_path: Path) -> None:

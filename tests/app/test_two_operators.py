@@ -60,7 +60,7 @@ def test_anns_work_is_offered_to_bob_and_to_ann_again_after_bob_saves(part: Path
         saved(bob)
     assert load(part).blocks[0].tool == Number(9.0)
     with operator(part, "ann") as ann:
-        ann.until("TOOL 7, was 9", longest=PATIENCE)
+        ann.until("1 edit.", longest=PATIENCE)
         ann.send(b"r")
         ann.until("Your work is back", longest=PATIENCE)
         saved_over(ann)

@@ -110,7 +110,7 @@ DIALOGS: Final = (
         (PART,),
         (),
         "UNSAVED WORK FOUND",
-        ("1 edit.", "Block 1: TOOL 7, was 1.", "RESTORE", "DISCARD, kept as a backup", *GO_BACK),
+        ("1 edit.", "RESTORE", "DISCARD, kept as a backup", *GO_BACK),
         prepared=left_behind,
     ),
     Dialog(

@@ -6,6 +6,7 @@ import random
 import re
 from collections.abc import Callable
 from dataclasses import dataclass, field
+from difflib import unified_diff
 from pathlib import Path
 from typing import Any, Final
 
@@ -19,7 +20,8 @@ from app.screens.contour_cells import fields_at, value_at
 from app.session.session import Session
 from core.program.edit import Edited, FormPlace, Refused, delete_segment, insert_segment, is_empty, type_field
 from core.program.fields import read_typed
-from core.program.history import History, differences
+from core.program.file.write import dumps
+from core.program.history import History
 from core.program.model import Number, Program
 from core.units import Kind
 
@@ -159,7 +161,8 @@ class ContourPart(Part):
     def missing(self, found: object) -> str:
         wanted = self.states[self.acknowledged].work[0]
         assert isinstance(found, Program)
-        return " ".join(differences(found, wanted)) or "The same program with another history."
+        lines = unified_diff(dumps(found).splitlines(), dumps(wanted).splitlines(), "found", "wanted", n=0, lineterm="")
+        return "\n".join(lines) or "The same program with another history."
 
     def next_keys(self, chance: random.Random) -> list[str]:
         kind = chance.choices(

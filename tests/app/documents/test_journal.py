@@ -12,7 +12,6 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from app.documents import nc_journal
 from app.documents.contour_journal import delta
 from app.documents.files import Stamp
 from app.documents.journal import (
@@ -260,17 +259,6 @@ def test_any_edits_of_an_nc_text_come_back(work: list[tuple[str, int, str]], con
         assert (found.work.lines, found.work.encoding) == (text.lines, text.encoding)
         assert (len(found.work.past), len(found.work.future)) == (len(text.past), len(text.future))
         assert found.work.unsaved
-
-
-def test_differences_between_texts_are_sentences() -> None:
-    file, work = NcText.read(b"A\nB\nC\nD\n"), NcText.read(b"A\nX\nB\nD\nE\n")
-    expected = ("Line 2 is new: X", "Line 3 of the file is deleted: C", "Line 5 is new: E")
-    assert nc_journal.differences(file, work) == expected
-    assert nc_journal.differences(file, file) == ()
-    long = NcText.read(b"".join(b"%d\n" % row for row in range(900)))
-    assert nc_journal.differences(file, long) == ("Lines 1 to 900 differ from the file.",)
-    long = NcText.read(b"A\nB\n" + b"X\n" * 900 + b"D\n")
-    assert nc_journal.differences(long, NcText.read(b"A\nB\nD\n")) == ("Lines 3 to 902 of the file are deleted.",)
 
 
 # ---- valid checksums, wrong content

@@ -259,9 +259,6 @@ def test_a_file_changed_by_another_program_is_noticed_and_both_versions_are_kept
     assert question.title == "CHANGED MEANWHILE"
     assert f"{file.name} was changed by somebody else" in words(question)
     assert "Both are kept." in words(question)
-    since, yours = words(question).split("Yours, compared with it:")
-    assert "3" in since
-    assert "7" in yours
     operator.save(None, answer)
     assert number_in(file) == number
     [copy] = [name for name in names(file) if whose in name and not name.startswith(".")]

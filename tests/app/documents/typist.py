@@ -124,9 +124,7 @@ class Typist:
 
 
 def words(ask: Ask) -> str:
-    return " ".join(
-        (ask.title, *ask.lines, *ask.details, *(f"{answer.word} {answer.effect}" for answer in ask.answers))
-    )
+    return " ".join((ask.title, *ask.lines, *(f"{answer.word} {answer.effect}" for answer in ask.answers)))
 
 
 def service(state: Path, me: Owner = DEAD, clock: str = TIME) -> DocumentService:

@@ -1,29 +1,13 @@
-"""Undo and redo, and the differences between two programs in words."""
+"""Undo and redo, and the middle in which two tuples differ."""
 
 from __future__ import annotations
-
-from dataclasses import replace
 
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from core.program.edit import (
-    FormPlace,
-    choose,
-    copy_block,
-    delete_segment,
-    delete_tool,
-    insert_segment,
-    set_setup,
-    set_tool,
-    set_unit,
-    type_field,
-)
-from core.program.history import History, differences, splice
-from core.program.model import ArcSegment, CutterComp, LineSegment, Number, PartSetup, Program, Relative, Tool, Unread
-from core.units import Unit
-from tests.core.program.parts import line, program, programs
+from core.program.history import History, splice
+from core.program.model import PartSetup, Program
 
 
 def named(name: str) -> Program:
@@ -73,67 +57,6 @@ def test_the_history_behaves_like_a_list_with_a_cursor(steps):
             at += 1
         assert (history.program, history.undo_count) == (programs[at], at)
         assert history.redo_count == len(programs) - 1 - at
-
-
-PART = program(line(x_end=1.0), line(y_end=1.0), line(x_end=0.0), unit=Unit.IN)
-
-
-def differences_to(edited: object) -> tuple[str, ...]:
-    assert isinstance(edited, Program)
-    return differences(PART, edited)
-
-
-def test_differences_name_changed_fields() -> None:
-    assert differences_to(type_field(PART, FormPlace(1, 2), "y_end", Number(2.5))) == (
-        "Block 1, segment 2: Y END 2.5000, was 1.0000.",
-    )
-    assert differences_to(type_field(PART, FormPlace(1), "x_start", None)) == ("Block 1: X START blank, was 0.0000.",)
-    unread = type_field(PART, FormPlace(1, 1), "x_end", Unread("2..5", ""))
-    assert differences_to(unread) == ("Block 1, segment 1: X END 2..5 (cannot be used), was 1.0000.",)
-
-
-def test_differences_name_changed_choices() -> None:
-    block = replace(PART.blocks[0], cutter_comp=CutterComp.RIGHT)
-    assert differences_to(replace(PART, blocks=(block,))) == ("Block 1: CUTTER COMP. RIGHT, was LEFT.",)
-
-
-def test_differences_say_what_a_field_takes_besides_numbers() -> None:
-    relative = type_field(PART, FormPlace(1, 1), "x_end", Relative(2.0))
-    assert differences_to(relative) == ("Block 1, segment 1: X END I2.0000, was 1.0000.",)
-    tangent = choose(PART, FormPlace(1, 2), "tangent", "YES")
-    assert differences_to(tangent) == ("Block 1, segment 2: TANGENT YES, was NO.",)
-    picked = choose(PART, FormPlace(1, 2), "choice", 1)
-    assert differences_to(picked) == ("Block 1, segment 2: solution changed.",)
-
-
-def test_differences_name_changed_segments() -> None:
-    assert differences_to(insert_segment(PART, FormPlace(1, 2), LineSegment())) == ("Block 1, segment 2 is new.",)
-    assert differences_to(delete_segment(PART, FormPlace(1, 3))) == ("Block 1, segment 3 is deleted.",)
-    first, *_ = PART.blocks[0].segments
-    arc = replace(PART.blocks[0], segments=(first, ArcSegment(), *PART.blocks[0].segments[2:]))
-    assert differences_to(replace(PART, blocks=(arc,))) == ("Block 1, segment 2: ARC, was LINE.",)
-    fewer = replace(PART.blocks[0], segments=(ArcSegment(),))
-    assert differences_to(replace(PART, blocks=(fewer,))) == ("Block 1, segments 1 to 3: 3 replaced by 1.",)
-
-
-def test_differences_name_new_blocks_and_changed_tools() -> None:
-    assert differences_to(copy_block(PART, 1)) == ("Block 2 is new.",)
-    assert differences_to(set_tool(PART, Tool(7))) == ("Tool 7 is new.",)
-    assert differences_to(delete_tool(PART, 1)) == ("Tool 1 is deleted.",)
-    assert differences_to(set_tool(PART, Tool(1, "BALL", Number(0.5)))) == ("Tool 1: TYPE BALL, was END MILL.",)
-
-
-def test_differences_name_changed_setup_and_units() -> None:
-    assert differences_to(set_setup(PART, "name", "COVER")) == ("PART SETUP: PART NAME COVER, was blank.",)
-    assert differences_to(set_unit(PART, Unit.MM)) == ("Program units: MM, was IN.",)
-
-
-@settings(max_examples=12, derandomize=True, deadline=None)
-@given(programs, programs)
-def test_differences_are_reported_if_and_only_if_programs_differ(old: Program, new: Program) -> None:
-    assert differences(old, old) == ()
-    assert bool(differences(old, new)) is (old != new)
-    assert all(sentence.isprintable() for sentence in differences(old, new))
 
 
 @pytest.mark.parametrize(
