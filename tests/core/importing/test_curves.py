@@ -128,15 +128,18 @@ def test_random_splines_with_spans_of_very_different_lengths_are_within_fit() ->
         assert apart(pieces_of_spline(shape, 0.005), de_boor(shape, 301), 0.005) <= 0.005 * 1.02
 
 
-def test_a_weighted_spline_that_is_a_circle_is_one_arc() -> None:
+@pytest.mark.parametrize("center", [0j, 37.1 - 12.3j, 1000 / 3 + 200 / 7 * 1j])
+@pytest.mark.parametrize("turned", [1 + 0j, 0.6 + 0.8j, -0.8 + 0.6j])
+def test_a_weighted_spline_that_is_a_circle_is_one_arc(center: complex, turned: complex) -> None:
     root = math.sqrt(0.5)
     corners = [10 + 0j, 10 + 10j, 10j, -10 + 10j, -10 + 0j, -10 - 10j, -10j, 10 - 10j, 10 + 0j]
     knots = [0.0, 0, 0, 1, 1, 2, 2, 3, 3, 4, 4, 4]
-    shape = BSpline(2, np.array(corners), np.array([1.0, root] * 4 + [1.0]), np.array(knots))
-    pieces = pieces_of_spline(shape, 0.005)
+    rows = center + turned * np.array(corners)
+    pieces = pieces_of_spline(BSpline(2, rows, np.array([1.0, root] * 4 + [1.0]), np.array(knots)), 0.005)
     assert len(pieces) == 1
     assert isinstance(pieces[0], Arc)
     assert pieces[0].start == pieces[0].end
+    assert complex(*pieces[0].center) == pytest.approx(center)
     assert pieces[0].radius == pytest.approx(10.0)
 
 
