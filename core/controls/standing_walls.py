@@ -15,6 +15,7 @@ from dataclasses import dataclass
 from math import inf
 from typing import Final
 
+from shapely import STRtree
 from shapely.geometry import Polygon
 
 from core.controls.contours_and_leads import RowRange, closed_passes, is_closed
@@ -36,11 +37,11 @@ MIN_POINTS: Final = 4
 class ClosedPass:
     """A closed run of moves, the heights of its lowest and highest point, and what it encloses.
 
-    The region is None if the run crosses itself: then it cuts nothing away, and nothing cuts it away.
+    The region is empty if the run crosses itself: then it cuts nothing away, and nothing cuts it away.
     """
 
     path: Path
-    region: Polygon | None
+    region: Polygon
     low: float
     high: float
 
@@ -87,13 +88,11 @@ def _range(heights: Floats) -> tuple[float, float]:
     return float(heights.min()), float(heights.max())
 
 
-def _region(path: Path) -> Polygon | None:
-    """Return what a path encloses; None if it crosses itself."""
+def _region(path: Path) -> Polygon:
+    """Return what a closed run of pieces encloses; an empty region if it crosses itself."""
     chords = chords_of(path, MAX_CHORD_ERROR)
-    if len(chords) < MIN_POINTS:
-        return None
-    region = Polygon(chords)
-    return region if region.is_valid and region.area > 0.0 else None
+    region = Polygon(chords) if len(chords) >= MIN_POINTS else Polygon()
+    return region if region.is_valid and region.area > 0.0 else Polygon()
 
 
 def standing_walls(passes: Sequence[ClosedPass], side: Side, radius: float) -> list[StandingWall]:
@@ -101,15 +100,13 @@ def standing_walls(passes: Sequence[ClosedPass], side: Side, radius: float) -> l
     shapes = defaultdict[PathKey, list[int]](list)
     for row, each in enumerate(passes):
         shapes[path_key(each.path)].append(row)
-    walls = list[StandingWall]()
-    for rows in shapes.values():
-        region, path = passes[rows[0]].region, joined([passes[row].path for row in rows])
-        behind = [
-            row
-            for others in shapes.values()
-            if _cuts_away(region, passes[others[0]].region, side, radius)
-            for row in others
-        ]
+    walls, runs = list[StandingWall](), list(shapes.values())
+    regions = [passes[rows[0]].region for rows in runs]
+    tree = STRtree(regions)
+    for rows, region in zip(runs, regions, strict=True):
+        path = joined([passes[row].path for row in rows])
+        near = sorted(tree.query(region).tolist())
+        behind = [row for each in near if _cuts_away(region, regions[each], side, radius) for row in runs[each]]
         others = [_lowest(row, passes, behind) for row in rows]
         low = min(passes[row].low for row in rows)
         highest = None if None in others else max((each for each in others if each), key=lambda other: other.high)
@@ -126,9 +123,9 @@ def _lowest(row: int, passes: Sequence[ClosedPass], behind: Sequence[int]) -> Cl
     return min(others, key=lambda other: other.high, default=None)
 
 
-def _cuts_away(wall: Polygon | None, other: Polygon | None, side: Side, radius: float) -> bool:
+def _cuts_away(wall: Polygon, other: Polygon, side: Side, radius: float) -> bool:
     """True if the other pass lies within the material of the wall, at most a cutter's diameter behind it."""
-    if wall is None or other is None or wall.exterior.distance(other.exterior) <= 2.0 * MAX_CHORD_ERROR:
+    if wall.exterior.distance(other.exterior) <= 2.0 * MAX_CHORD_ERROR:
         return False
     counterclockwise = bool(wall.exterior.is_ccw)
     if counterclockwise != other.exterior.is_ccw:
