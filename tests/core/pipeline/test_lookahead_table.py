@@ -1,6 +1,7 @@
 """The look-ahead table of a block: every value compensated and judged, and the recommended value."""
 
 from dataclasses import fields, replace
+from typing import Any
 
 import pytest
 
@@ -67,15 +68,15 @@ def test_every_value_is_judged_by_its_own_path(points, choice):
         )
 
 
-class Fate:
+class Judged:
     def __init__(self, value, clean, uncut):
         self.value, self.clean, self.uncut = value, clean, uncut
 
 
 def test_the_recommended_value_is_clean_then_leaves_least_then_is_smallest():
-    fates = [Fate(1, False, 0.0), Fate(2, True, 3.0), Fate(3, True, 1.0), Fate(4, True, 1.0 + 1e-9)]
-    assert recommended(fates) == 3
-    assert recommended(fates[:1]) is None
+    rows: list[Any] = [Judged(1, False, 0.0), Judged(2, True, 3.0), Judged(3, True, 1.0), Judged(4, True, 1.0 + 1e-9)]
+    assert recommended(rows) == 3
+    assert recommended(rows[:1]) is None
     assert recommended([]) is None
 
 
