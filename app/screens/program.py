@@ -75,7 +75,7 @@ class ProgramScreen(BaseScreen):
                 yield PlainLabel(id="program-file", classes="head-note")
             yield RowTable(id="blocks", cursor_type="row")
             yield About(id="program-about", classes="about")
-            yield FindingsList(id="program-findings", classes="panel")
+            yield FindingsList(id="program-findings")
         yield Drawing(id="block-drawing")
 
     def on_mount(self) -> None:
