@@ -257,6 +257,7 @@ def test_each_letter_of_g65_sets_its_variable() -> None:
 
 
 OTHER_ENDS = {
+    ("rosettacnc:easy", "G41 D1\nG1 X9\nG40\nX20"): (20.0, 0.0),
     ("fanuc:a", "G41 D1 G1 X9.\nX20.\nG40\nZ5."): (20.0, 2.5),
     ("fanuc:a", "G41 D1 G1 X9.\nX20.\nG40 Z5."): (20.0, 2.5),
     ("fanuc:a", "G41 D1 G1 X9.\nX20.\nG40 Z5.\nX30."): (30.0, 0.0),
@@ -298,6 +299,7 @@ def test_a_short_program_ends_at(control: str, blocks: str) -> None:
         "G68 X0 Y0 R30.",
         "G51 X0 Y0 P2.",
         "G54 P2 G81 Z-1. R1.",
+        "G54 P2 G73 Z-1. R1. Q1.",
         "G54 G4 P1",
         "G54 M98 P1\nM30\nO1\nM99",
         "X1. D1 H1",
