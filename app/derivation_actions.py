@@ -15,7 +15,7 @@ from textual.worker import get_current_worker
 from app.screens.base import BaseScreen
 from app.screens.contour import ContourScreen
 from app.session.derivation import Request, advised, derived, lookahead_table
-from app.session.messages import ProgramDerived, TableMade, Tone
+from app.session.messages import ProgramDerived, RowsKnown, TableMade, Tone
 from app.session.session import Session
 from app.session.work import Work
 from app.work_actions import WorkActions
@@ -25,7 +25,7 @@ from core.progress import Stopped
 
 if TYPE_CHECKING:
     from app.nc_proof.screen import ProofScreen
-    from core.advice.lookahead_table import Table
+    from core.advice.lookahead_table import Row, Table
 
 QUIET = 0.2
 """Seconds without a key before the search for advice starts, so that no key waits for it."""
@@ -145,10 +145,20 @@ class DerivationActions(WorkActions):
 
     @work(thread=True, group="table", description="table")
     def _make_table_in_thread(self, block: DerivedBlock, program: Program, work: Work) -> None:
+        def known(rows: tuple[Row, ...]) -> None:
+            if work.long:
+                self.post_message(RowsKnown(block, rows))
+
         try:
-            self.post_message(TableMade(block, lookahead_table(block, program, work)))
+            self.post_message(TableMade(block, lookahead_table(block, program, known, work)))
         except Stopped:
             self.post_message(TableMade(None, None))
+
+    @on(RowsKnown)
+    def _rows_known(self, message: RowsKnown) -> None:
+        """Show the values that are judged while the others are still being calculated."""
+        if self.is_running and isinstance(self.screen, ContourScreen):
+            self.screen.show_rows(message.block, message.rows)
 
     @on(TableMade)
     def _table_made(self, message: TableMade) -> None:

@@ -5,7 +5,7 @@ from __future__ import annotations
 from dataclasses import replace
 from math import dist
 from textwrap import wrap
-from typing import ClassVar, Final
+from typing import TYPE_CHECKING, ClassVar, Final
 
 from textual import events, on, work
 from textual.app import ComposeResult
@@ -45,6 +45,7 @@ from app.widgets.segment_list import SegmentList
 from app.widgets.softkeys import Softkey
 from app.widgets.verdict import Case, Verdict
 from core.finding import Finding, Severity
+from core.pipeline.derived import DerivedBlock
 from core.program import fields as table
 from core.program.edit import (
     Edited,
@@ -62,6 +63,9 @@ from core.program.fields import SEGMENT_PROMPT, Field, read_typed
 from core.program.model import ArcSegment, BlendSegment, ChamferSegment, LineSegment, Number, Segment, Typed
 from core.program.solve.solved import Value
 from core.units import Kind, sentence
+
+if TYPE_CHECKING:
+    from core.advice.lookahead_table import Row
 
 FIRST_SEGMENT: Final = "Use ENTER to edit START, then right arrow or Page Down for the first segment."
 NEW_SEGMENTS: Final[dict[str, type[Segment]]] = {
@@ -274,6 +278,12 @@ class ContourScreen(FormScreen):
         if verdict.case is not None and not shown.derived_block.known:
             stopped = self.host.stopped is shown.program
             verdict.case = replace(verdict.case, working=None if work is None else work.done, stopped=stopped)
+
+    def show_rows(self, block: DerivedBlock, rows: tuple[Row, ...]) -> None:
+        """Fill in the judged values of a look-ahead table that is still being made."""
+        verdict = self.query_one(Verdict)
+        if verdict.case is not None and verdict.case.block is block and verdict.case.table is None:
+            verdict.case = replace(verdict.case, rows=rows)
 
     def _show_tried(self, shown: Session) -> None:
         """Show the other fields as a half-typed number would make them, or as they were."""

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING
 
@@ -12,7 +12,7 @@ from core.program.model import Program
 from core.progress import Progress, silent
 
 if TYPE_CHECKING:
-    from core.advice.lookahead_table import Table
+    from core.advice.lookahead_table import Row, Table
 
 
 @dataclass(frozen=True, eq=False, slots=True)
@@ -30,11 +30,16 @@ def derived(request: Request, progress: Progress = silent) -> Derived:
     return derive(request.program, progress)
 
 
-def lookahead_table(block: DerivedBlock, program: Program, progress: Progress = silent) -> Table | None:
-    """Return the effect of every look-ahead value on a block; None if there is nothing to compensate."""
+def lookahead_table(
+    block: DerivedBlock, program: Program, known: Callable[[tuple[Row, ...]], None], progress: Progress = silent
+) -> Table | None:
+    """Return the effect of every look-ahead value on a block; None if there is nothing to compensate.
+
+    Call `known` with all rows so far whenever some are complete.
+    """
     from core.pipeline.derive import look_ahead_table
 
-    return look_ahead_table(block, program, progress)
+    return look_ahead_table(block, program, progress, known)
 
 
 def advised(block: DerivedBlock, program: Program, table: Table, progress: Progress) -> Iterator[Table]:

@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, NamedTuple
 from textual.message import Message
 
 if TYPE_CHECKING:
-    from core.advice.lookahead_table import Table
+    from core.advice.lookahead_table import Row, Table
     from core.pipeline.derived import Derived, DerivedBlock
 
 
@@ -34,6 +34,14 @@ class ProgramDerived(Message):
 
     derived: Derived | None
     trial: bool
+
+
+@dataclass
+class RowsKnown(Message):
+    """A worker has judged some values of a block's look-ahead table; `rows` are all that are known so far."""
+
+    block: DerivedBlock
+    rows: tuple[Row, ...]
 
 
 @dataclass

@@ -87,6 +87,13 @@ class Case:
     unit: Unit
     working: float | None = None
     stopped: bool = False
+    rows: tuple[Row, ...] = ()
+    """The rows of the table that are known while it is being made."""
+
+    def row(self, value: int) -> Row | None:
+        """Return the row of a look-ahead value; None if it is not known yet."""
+        rows = self.rows if self.table is None else self.table.rows
+        return next((row for row in rows if row.value == value), None)
 
     @property
     def judgment(self) -> Judgment | None:
@@ -174,7 +181,7 @@ def strip(case: Case, marks: Marks) -> Content:
         return Content("")
     parts: list[tuple[str, str]] = [(" 1 ", "$c-label")]
     for value in range(1, MAX_LOOKAHEAD + 1):
-        row = None if case.table is None else case.table.row(value)
+        row = case.row(value)
         role, mark = _value_mark(row, marks)
         here = value == case.block.lookahead.value
         parts.append((f" {value} ", f"bold reverse {role}") if here else (mark, role))

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass
 
 from core.comp.compensate import compensate_all
@@ -109,27 +109,49 @@ def recommended(rows: Sequence[Row]) -> int | None:
     return min((row.value for row in clean if row.uncut <= least + JOINED), default=None)
 
 
-def judge_lookaheads(setup: CuttingSetup, progress: Progress = silent) -> Table:
-    """Make the table of a contour: a value is judged by its finish path and by the roughing passes before it."""
+def judge_lookaheads(
+    setup: CuttingSetup, progress: Progress = silent, known: Callable[[tuple[Row, ...]], None] | None = None
+) -> Table:
+    """Make the table of a contour: a value is judged by its finish path and by the roughing passes before it.
+
+    Call `known` with all rows so far whenever some are complete.
+    """
     count = 1 + len(setup.stocks)
     shares = [part(progress, at / count, (at + 1) / count) for at in range(count)]
-    finish = setup.paths(setup.radius)
-    verdicts = _verdicts(setup, setup.radius, finish, shares[0])
+    finish, passes = setup.paths(setup.radius), list[list[Verdict | None]]()
     rougher = setup.radius if setup.rougher is None else setup.rougher
-    passes = [
-        _verdicts(setup, rougher, setup.paths(rougher + stock), share)
-        for stock, share in zip(setup.stocks, shares[1:], strict=True)
-    ]
-    rough = list(zip(*passes, strict=True)) or [()] * len(VALUES)
-    rows = tuple(Row(*row) for row in zip(VALUES, finish, verdicts, rough, strict=True))
+    rows = tuple[Row, ...]()
+    for at, share in enumerate(shares):
+        cutter, paths = (rougher, setup.paths(rougher + setup.stocks[at - 1])) if at else (setup.radius, finish)
+        for verdicts in _verdicts(setup, cutter, paths, share):
+            if at == count - 1:
+                rows = _rows(finish, [*passes, verdicts])
+                if known is not None:
+                    known(rows)
+        passes.append(verdicts)
     return Table(rows, recommended(rows))
 
 
-def _verdicts(setup: CuttingSetup, cutter: float, paths: tuple[Compensated, ...], progress: Progress) -> list[Verdict]:
-    """Return the verdict on a cutter of this radius for each path; a path that several values share is judged once."""
+def _rows(finish: tuple[Compensated, ...], passes: list[list[Verdict | None]]) -> tuple[Row, ...]:
+    """Return the rows of the values with a verdict on every pass."""
+    rows = []
+    for value, path, *verdicts in zip(VALUES, finish, *passes, strict=True):
+        judged = [verdict for verdict in verdicts if verdict is not None]
+        if len(judged) == len(verdicts):
+            rows.append(Row(value, path, judged[0], tuple(judged[1:])))
+    return tuple(rows)
+
+
+def _verdicts(
+    setup: CuttingSetup, cutter: float, paths: tuple[Compensated, ...], progress: Progress
+) -> Iterator[list[Verdict | None]]:
+    """Yield the verdict on a cutter of this radius for each path, None for those that are not judged yet.
+
+    A path that several values share is judged once; the last list is complete.
+    """
     distinct = {path.tested: path for path in paths}
     verdicts = {}
     for done, (key, path) in enumerate(distinct.items()):
         progress(done / len(distinct))
         verdicts[key] = judge(setup.surface, setup.side, cutter, path.whole)
-    return [verdicts[path.tested] for path in paths]
+        yield [verdicts.get(each.tested) for each in paths]

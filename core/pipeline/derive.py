@@ -2,10 +2,11 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import dataclass, replace
 
 from core.advice.block_paths import BlockPaths, RoughPass
-from core.advice.lookahead_table import CuttingSetup, Table, judge_lookaheads
+from core.advice.lookahead_table import CuttingSetup, Row, Table, judge_lookaheads
 from core.advice.path_findings import (
     better_path_findings,
     by_severity,
@@ -167,10 +168,18 @@ def _with_findings(block: DerivedBlock, work: BlockPaths, program: Program) -> D
     return replace(block, findings=by_severity((*findings, *further)))
 
 
-def look_ahead_table(block: DerivedBlock, program: Program, progress: Progress = silent) -> Table | None:
-    """Return the table of a derived block; None for ON and while there is nothing to compensate."""
+def look_ahead_table(
+    block: DerivedBlock,
+    program: Program,
+    progress: Progress = silent,
+    known: Callable[[tuple[Row, ...]], None] | None = None,
+) -> Table | None:
+    """Return the table of a derived block; None for ON and while there is nothing to compensate.
+
+    Call `known` with all rows so far whenever some are complete.
+    """
     setup = cutting_setup(block, program)
-    return None if setup is None else judge_lookaheads(setup, progress)
+    return None if setup is None else judge_lookaheads(setup, progress, known)
 
 
 def cutting_setup(block: DerivedBlock, program: Program) -> CuttingSetup | None:

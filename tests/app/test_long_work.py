@@ -5,6 +5,7 @@ from __future__ import annotations
 from contextlib import asynccontextmanager
 from threading import Event
 from time import monotonic, sleep
+from typing import Any
 
 import pytest
 from textual.widgets import Label, ProgressBar, Static
@@ -36,9 +37,11 @@ class Slow:
 
     def __init__(self, monkeypatch, module, name):
         self.real, self.go, self.stopped = getattr(module, name), Event(), False
+        self.arguments: tuple[Any, ...] = ()
         monkeypatch.setattr(module, name, self)
 
     def __call__(self, *arguments, progress=None):
+        self.arguments = arguments
         report = progress or arguments[-1]
         while not self.go.is_set():
             try:
@@ -114,6 +117,20 @@ async def test_a_stopped_look_ahead_table_is_made_on_request(monkeypatch):
         user.app.action_calculate()
         await user.settle()
         assert user.session.lookahead_table is not None
+
+
+async def test_the_strip_shows_the_values_that_are_judged_while_the_others_are_not(monkeypatch):
+    async with operator() as user:
+        rows = user.session.lookahead_table.rows
+        slow = Slow(monkeypatch, app_module, "lookahead_table")
+        await user.send(*["tab"] * 4, "2", ".", "1", "enter")
+        await seen(user, "working 40 %, Esc stops")
+        strip = user.screen.query_one("#strip", Static)
+        assert "✖" not in str(strip.content)
+        slow.arguments[2](rows[:1])
+        while "✖" not in str(strip.content):
+            await user.pilot.pause(0.01)
+        slow.go.set()
 
 
 @asynccontextmanager

@@ -41,6 +41,16 @@ def test_the_pocket_has_the_designed_title_strip_and_chips(pocket):
     assert chips(pocket, marks).plain == "✓ GOUGE none   ▲ UNCUT 1.9367 long   × DELETED 9"
 
 
+def test_the_strip_fills_as_values_become_known(pocket):
+    marks = MARKS_OF_CHARACTERS["braille"]
+    waiting = replace(pocket, table=None)
+    assert strip(waiting, marks).plain.startswith(" 1 ••••••• 8 ")
+    some = strip(replace(waiting, rows=pocket.table.rows[:3]), marks)
+    assert some.plain.startswith(" 1 ✖•••••• 8 ")
+    looks = {str(span.style) for span in some.spans if span.start in (4, 5, 6)}
+    assert looks == {"$c-deleted", "$c-label"}, "two are judged, the next one is not"
+
+
 def test_a_gouge_comes_first_in_title_and_chips(notch):
     assert title(notch).startswith("LOOK-AHEAD CAL 2 gouges segment ")
     assert chips(notch, MARKS_OF_CHARACTERS["braille"]).plain.startswith("✖ GOUGE 0.2500")

@@ -7,7 +7,7 @@ from typing import NamedTuple
 
 import pytest
 
-from core.advice.lookahead_table import CuttingSetup, judge_lookaheads, recommended
+from core.advice.lookahead_table import CuttingSetup, Row, judge_lookaheads, recommended
 from core.geometry.piece import Side
 from core.verify.judge import judge
 from tests.core.comp.contours import lines
@@ -47,7 +47,12 @@ def test_roughing_passes_count_with_the_radius_of_their_own_tool():
 
 def test_progress_goes_from_pass_to_pass_to_the_end():
     shares: list[float] = []
-    judge_lookaheads(replace(SLOT, stocks=(8.0, 4.0)), shares.append)
+    known: list[tuple[Row, ...]] = []
+    table = judge_lookaheads(replace(SLOT, stocks=(8.0, 4.0)), shares.append, known.append)
+    assert [len(rows) for rows in known] == sorted(len(rows) for rows in known)
+    assert len(known) > 1
+    assert all(len(row.rough) == 2 for row in known[0]), "a row is complete with its roughing passes"
+    assert known[-1] == table.rows
     assert shares == sorted(shares)
     assert all(any(0 <= share - third / 3 <= 1 / 3 for share in shares) for third in range(3))
     assert shares[-1] <= 1.0
