@@ -77,7 +77,8 @@ class HomeScreen(BaseScreen):
 
     def compose_body(self) -> ComposeResult:
         """Lay out the folder's name, its files, and the drawing of the program with the cursor."""
-        with Vertical(id="files", classes="panel -bare"):
+        with Vertical(id="files", classes="panel -bare") as files:
+            files.border_title = "PROGRAMS"
             yield PlainText(id="folder", classes="head")
             yield RowTable(id="programs", cursor_type="row")
             yield About(id="file-about", classes="about")

@@ -147,7 +147,8 @@ def _cells(row: Row, table: Table, session: Session, marks: Marks) -> tuple[Cont
         notes.append("in force")
     deleted = Content.styled(segment_numbers(row.deleted), "$c-deleted")
     left = length(row.uncut, unit) if row.verdict.uncut else "none"
-    return Content(f"{row.value:>5}"), gouge, Content(f"{left:>9}"), deleted, Content(" ".join(notes))
+    role = "$c-cal" if row.value == lookahead.calculated else ""
+    return Content(f"{row.value:>5}"), gouge, Content(f"{left:>9}"), deleted, Content.styled(" ".join(notes), role)
 
 
 def _worst_point(row: Row) -> tuple[float, float] | None:
