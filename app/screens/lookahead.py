@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from typing import TYPE_CHECKING, ClassVar
 
 from textual import on
@@ -18,7 +19,7 @@ from app.session.words import length, segment_numbers
 from app.widgets.drawing import Drawing
 from app.widgets.plain import PlainText
 from app.widgets.row_table import RowTable
-from app.widgets.softkeys import Softkey
+from app.widgets.softkeys import Softkey, Softkeys
 from app.widgets.verdict import MARKS_OF_CHARACTERS, Marks
 from core.program.edit import FormPlace, recalculate_lookahead, type_field
 from core.program.model import Number
@@ -88,6 +89,15 @@ class LookaheadScreen(BaseScreen):
         """The row with the cursor; None without a table."""
         table = self.current_session.lookahead_table
         return None if table is None else table.rows[self.query_one("#values", DataTable).cursor_row]
+
+    def refresh_frame(self) -> None:
+        """Name the value with the cursor on its softkey."""
+        if self.stands and self.row is not None:
+            softkeys = self.query_one(Softkeys)
+            take, *others = softkeys.keys
+            if take is not None:
+                softkeys.keys = (replace(take, label=f"TAKE {self.row.value} AS USR"), *others)
+        super().refresh_frame()
 
     @on(DataTable.RowHighlighted)
     def _highlighted(self) -> None:

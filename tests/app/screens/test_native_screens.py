@@ -45,6 +45,7 @@ async def test_the_look_ahead_table_draws_the_cursor_row_and_enter_takes_it():
         assert isinstance(user.app.screen, LookaheadScreen)
         table = user.screen.query_one(DataTable)
         assert (table.row_count, table.cursor_row) == (20, 1)
+        assert "TAKE 2 AS USR" in str(user.screen.query_one("#f1", Static).content)
         assert table.virtual_size.width <= table.scrollable_content_region.width, "no column is cut off"
         await user.press("up")
         await everything(user)
