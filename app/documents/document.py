@@ -10,10 +10,10 @@ from app.documents import nc_journal
 from app.documents.files import LARGEST_FILE, Stamp
 from app.documents.journal import Journal, Kind, Place
 from app.documents.lock import Owner
-from app.documents.nc_text import MAX_NC_BYTES, Change, NcText
+from app.documents.nc_text import MAX_NC_BYTES, NcText
 from app.documents.programs import empty_program
 from core.program.edit import FormPlace
-from core.program.file.read import StoreError, loads_bytes
+from core.program.file.read import loads_bytes
 from core.program.file.write import dumps
 from core.program.history import History
 from core.program.model import Program
@@ -116,13 +116,6 @@ class ContourDocument:
         """True if this is already the journal's program."""
         return _history_of(journal).program == self.program
 
-    def work_of(self, data: bytes) -> History | None:
-        """Return the history with a file's program as one more edit; None if it is not a program."""
-        try:
-            return self.history.do(loads_bytes(data, ""), "SAVE")
-        except StoreError:
-            return None
-
 
 def _history_of(journal: Journal) -> History:
     if not isinstance(journal.work, History):
@@ -188,12 +181,6 @@ class NcDocument:
     def holds(self, journal: Journal) -> bool:
         """True if these are already the journal's lines."""
         return "".join(_text_of(journal).lines) == "".join(self.text.lines)
-
-    def work_of(self, data: bytes) -> NcText | None:
-        """Return the text with a file's lines as one more edit; None if the encoding differs."""
-        text = NcText.read(data, self.text.encoding)
-        same = text.encoding == self.text.encoding
-        return self.text.done(Change(0, self.text.lines, text.lines)) if same else None
 
 
 def _text_of(journal: Journal) -> NcText:

@@ -1,7 +1,7 @@
 """This module reads program files, and saves them without ever leaving a half-written one.
 
 A save writes a temporary file in the same folder, forces it to disk and renames it over the old file: whatever
-happens, the old or the new file is there.  A killed save may leave the temporary file, which the next opening finds.
+happens, the old or the new file is there.  A killed save may leave the temporary file, which a later opening removes.
 """
 
 from __future__ import annotations
@@ -13,8 +13,8 @@ import stat
 from collections.abc import Callable, Mapping
 from contextlib import suppress
 from dataclasses import dataclass
-from fcntl import LOCK_EX, LOCK_NB, flock
 from pathlib import Path
+from time import time
 from types import MappingProxyType
 from typing import BinaryIO, Final
 from zlib import adler32, crc32
@@ -33,6 +33,8 @@ _PROGRAM: Final = re.compile(
     rb"(?:\xef\xbb\xbf)?(?:[ \t\r]*(?:#[^\n]*|[\w.-]+[ \t]*=[^\n]*)?\n)*?[ \t]*format[ \t]*=",
 )
 """The beginning of a program: comments and keys up to the key `format`."""
+MAX_SAVE_SECONDS: Final = 600
+"""The age in seconds from which a temporary file is one of a save that was killed."""
 MAX_NAME_BYTES: Final = 200
 """The most bytes of a file's name that the name of a hidden file beside it repeats."""
 
@@ -212,9 +214,24 @@ def _is_program(path: Path) -> bool:
         return False
 
 
-def temporary_path(target: Path, size: int) -> Path:
-    """Return the temporary path for a file's new content; the name holds the full size in bytes."""
-    return target.with_name(f".{short_name(target.name)}.{os.urandom(6).hex()}-{size}.tmp")
+def temporary_path(target: Path) -> Path:
+    """Return a temporary path for a file's new content."""
+    return target.with_name(f".{short_name(target.name)}.{os.urandom(6).hex()}.tmp")
+
+
+def remove_killed_saves(path: Path) -> None:
+    """Remove the temporary files of this login's killed saves of a file; the journal holds what they were to write.
+
+    Those that are younger than `MAX_SAVE_SECONDS` may still be written.
+    """
+    target = Path(os.path.realpath(path))
+    name = re.compile(re.escape(f".{short_name(target.name)}.") + r"[0-9a-f]{12}\.tmp")
+    with suppress(OSError):
+        for file in target.parent.iterdir():
+            if name.fullmatch(file.name):
+                status = file.lstat()
+                if status.st_uid == os.geteuid() and status.st_mtime < time() - MAX_SAVE_SECONDS:
+                    file.unlink()
 
 
 def short_name(name: str) -> str:
@@ -224,13 +241,10 @@ def short_name(name: str) -> str:
 
 def _write(target: Path, data: bytes) -> str:
     old = _status(target)
-    temporary = temporary_path(target, len(data))
+    temporary = temporary_path(target)
     handle = os.open(temporary, os.O_WRONLY | os.O_CREAT | os.O_EXCL | os.O_CLOEXEC, 0o666 if old is None else 0o600)
     try:
         try:
-            with suppress(OSError):
-                # the lock shows others that the file is still being written
-                flock(handle, LOCK_EX | LOCK_NB)
             write_all(handle, data)
             reason = "" if old is None else _taken_on(handle, target, old)
             os.fsync(handle)

@@ -14,10 +14,19 @@ from typing import Any, Final, Generic
 
 from app.documents import questions, times
 from app.documents.document import MAX_BYTES, AnyDocument, ContourDocument, Document, FileState, NcDocument
-from app.documents.files import holds_program, load, read_file, refuse_program, stamp_of, stamp_of_data, why, write_data
-from app.documents.interrupted import interrupted_saves
+from app.documents.files import (
+    holds_program,
+    load,
+    read_file,
+    refuse_program,
+    remove_killed_saves,
+    stamp_of,
+    stamp_of_data,
+    why,
+    write_data,
+)
 from app.documents.journal import Head, Journal, Kind, beginning, continuing, records_between, same_edits
-from app.documents.journal_file import JOURNAL_SUFFIX, JournalFile, journal_path, new_path, set_aside, why_aside
+from app.documents.journal_file import JournalFile, journal_path, new_path, set_aside, why_aside
 from app.documents.left_overs import (
     Unreadable,
     elsewhere,
@@ -40,8 +49,6 @@ from core.program.file.read import StoreError
 from core.program.model import unread_texts
 from core.units import Unit, printable
 
-TEMPORARY_SUFFIX: Final = ".tmp"
-"""The suffix of the file that an interrupted save leaves."""
 MAX_JOURNAL_GROWTH: Final = {Kind.CONTOUR: 8_000_000, Kind.NC: 64_000_000}
 """The length in bytes beyond which the journal of a document that stays unsaved is rewritten from its current work."""
 SAVE_ELSEWHERE: Final = "SAVE AS (Ctrl+K) saves elsewhere."
@@ -218,12 +225,10 @@ class DocumentService:
         assert file.path is not None
         wanted = None if kept_copy is None else read(kept_copy, Kind.CONTOUR)
         left = (journal for _, journal in left_by_dead(file.path, Kind.CONTOUR, self.state, self.me.user))
-        empty = ContourDocument.of(empty_program(), file)
-        saves = (save.journal(empty, self.me.user) for save in interrupted_saves(file.path, Kind.CONTOUR))
-        journal = wanted or next(left, None) or next(filter(None, saves), None)
+        journal = wanted or next(left, None)
         if journal is None:
             raise error
-        program = empty.restored(journal).program
+        program = ContourDocument.of(empty_program()).restored(journal).program
         return ContourDocument.of(empty_program(program.unit), file)
 
     def _opened(self, document: AnyDocument, notice: Notice | None, kept_copy: Path | None) -> Opened[AnyDocument]:
@@ -232,6 +237,8 @@ class DocumentService:
         if holder is not None:
             document = self._remember(kept, replace(document, file=replace(document.file, holder=holder)))
             return Opened(document, notice, Offer(questions.open_already(holder, self.clock()), kept_copy))
+        if document.file.path is not None and document.file.stamp is not None:
+            remove_killed_saves(document.file.path)
         opened = self._next_offer(document, kept_copy)
         return replace(opened, notice=opened.notice or notice)
 
@@ -285,8 +292,6 @@ class DocumentService:
         Work that was answered or is kept for somebody else raises no question; a notice mentions the latter.
         """
         for_others: list[str] = []
-        # before any journal is answered: a save that a journal also holds is not asked about twice
-        interrupted = tuple(self._interrupted(document))
         for path, left in self._left_work(document, kept_copy):
             if path in answered:
                 continue
@@ -295,28 +300,7 @@ class DocumentService:
                 for_others.append(ask)
             elif ask is not None:
                 return Opened(document, notice, Offer(ask, path, left, answered))
-        for path, journal in interrupted:
-            if path not in answered:
-                ask = questions.unsaved_work(
-                    document, journal, mine=True, me=self.me, living=False, chosen=False, today=self.clock()
-                )
-                return Opened(document, notice, Offer(ask, path, journal, answered))
         return Opened(document, notice or (Notice(" ".join(for_others), warning=True) if for_others else None))
-
-    def _interrupted(self, document: Document) -> Iterator[tuple[Path, Journal]]:
-        """Yield the interrupted saves whose content exists nowhere else; remove the others."""
-        if document.file.path is None or document.file.holder is not None:
-            return
-        saves = tuple(interrupted_saves(document.file.path, document.kind))
-        journals = [left for _, left in self._left_work(document, None) if isinstance(left, Journal)] if saves else []
-        for save in saves:
-            journal = save.journal(document, self.me.user)
-            kept = [document.data(), *(document.restored(other).data() for other in journals)]
-            if journal is None or save.data in kept:
-                with suppress(OSError):
-                    save.path.unlink()
-            else:
-                yield save.path, journal
 
     def _left_work(self, document: Document, kept_copy: Path | None) -> Iterator[tuple[Path, Journal | Unreadable]]:
         """Yield the unsaved work to ask about; a chosen kept copy comes first."""
@@ -427,9 +411,7 @@ class DocumentService:
         """Return the document without the work, which is kept `whose`: as a backup, or for its author."""
         aside = path
         try:
-            if isinstance(left, Journal) and path.suffix == TEMPORARY_SUFFIX:
-                aside = self._keep_interrupted(document, path, left)
-            elif isinstance(left, Journal) and (alive(left.head.owner) or not self._is_mine(path, left)):
+            if isinstance(left, Journal) and (alive(left.head.owner) or not self._is_mine(path, left)):
                 aside = self._move_aside(path, left)
             else:
                 aside = set_aside(path, "discarded")
@@ -439,15 +421,6 @@ class DocumentService:
         except OSError as error:
             notice = Notice(f"The unsaved work cannot be renamed: {why(error)}", warning=True)
         return self._next_offer(document, answered=answered | {path, aside}, notice=notice)
-
-    def _keep_interrupted(self, document: Document, path: Path, journal: Journal) -> Path:
-        """Turn an interrupted save into a journal among the kept copies, and return its path."""
-        work, file = document.restored(journal), document.file.path
-        copy = new_journal(journal_place(file, self.me, self.state).with_suffix(f"{JOURNAL_SUFFIX}.saved"), file)
-        copy.add(self._all_records(work))
-        copy.close()
-        path.unlink()
-        return set_aside(copy.path, "discarded")
 
     # ---- keep
 

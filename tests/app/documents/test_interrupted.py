@@ -1,4 +1,4 @@
-"""Killed saves: the temporary files they leave beside the file are found, compared, and offered or removed."""
+"""Killed saves: the journal brings their content back, and what they leave beside the file is removed later."""
 
 from __future__ import annotations
 
@@ -6,7 +6,6 @@ import os
 import signal
 import warnings
 from collections.abc import Callable
-from fcntl import LOCK_EX, flock
 from pathlib import Path
 from typing import Any
 
@@ -15,9 +14,8 @@ import pytest
 from app.documents import files
 from app.documents.files import temporary_path, write_data
 from app.documents.journal_file import journal_path, new_path
-from app.documents.left_overs import kept_copies
-from app.documents.service import Opened
-from tests.app.documents.typist import changed_by_another, names, number_in, started
+from app.documents.service import Trouble
+from tests.app.documents.typist import changed_by_another, names, number_in, service, started
 
 
 def killed_while(file: Path, data: bytes, call: str, first_do: Callable[[int, bytes], object] | None = None) -> None:
@@ -60,14 +58,24 @@ def temporaries(file: Path) -> list[str]:
     return [name for name in names(file) if name.endswith(".tmp")]
 
 
-def test_a_save_killed_before_the_rename_is_offered(state: Path, file: Path) -> None:
-    data = content(file, 7)
-    killed_while(file, data, "_taken_on")
-    killed_while(file, data, "_put_in_place_of")
-    assert len(temporaries(file)) == 2
+def grown_old(file: Path) -> None:
+    """Let the temporary files be older than any save takes."""
+    for name in temporaries(file):
+        os.utime(file.with_name(name), (0, 0))
+
+
+@pytest.mark.parametrize("call", ["write_all", "_taken_on", "_put_in_place_of"])
+def test_the_content_of_a_save_killed_before_the_rename_comes_back_from_the_journal(
+    state: Path, file: Path, call: str
+) -> None:
+    first = started(state, file).type(7)
+    killed_while(file, first.document.data(), call)
+    first.killed()
+    assert len(temporaries(file)) == 1
     assert number_in(file) == 1
+    grown_old(file)
     operator = started(state, file)
-    assert f"UNSAVED WORK FOUND {file.name}, " in operator.asked
+    assert temporaries(file) == []
     operator.answer("RESTORE")
     assert operator.number == 7
     assert operator.document.unsaved
@@ -77,67 +85,45 @@ def test_a_save_killed_before_the_rename_is_offered(state: Path, file: Path) -> 
     operator.left()
     again = started(state, file)
     assert again.offer is None
-    assert temporaries(file) == []
+    again.left()
+    assert names(file) == []
 
 
-def test_a_save_killed_while_writing_is_removed_and_not_offered(state: Path, file: Path) -> None:
-    data = content(file, 7)
-
-    killed_while(file, data, "write_all", lambda handle, whole: os.write(handle, whole[: len(whole) // 2]))
-    assert len(temporaries(file)) == 1
-    assert started(state, file).offer is None
-    assert temporaries(file) == []
-
-
-def test_a_save_killed_while_writing_in_place_is_restored_whole(state: Path, file: Path) -> None:
+def test_the_content_of_a_save_killed_while_writing_in_place_comes_back_from_the_journal(
+    state: Path, file: Path
+) -> None:
     other = file.with_name("other")
     other.hardlink_to(file)
-    data = content(file, 7)
-
-    killed_while(file, data, "_overwrite", half_overwritten)
+    first = started(state, file).type(7)
+    killed_while(file, first.document.data(), "_overwrite", half_overwritten)
+    first.killed()
     assert len(file.read_bytes()) == 30
     operator = started(state, file)
     assert operator.answer("RESTORE").number == 7
-    operator.save(None, *(["YOURS"] if file.suffix == ".toml" else []))
+    operator.save(None, "YOURS")
     assert number_in(file) == 7
     assert other.read_bytes() == file.read_bytes()
-    assert temporaries(file) == []
-
-
-def test_a_discarded_save_stays_as_a_kept_copy(state: Path, file: Path) -> None:
-    temporary_path(file, 5).touch()
-    data = content(file, 7)
-    temporary_path(file, len(data)).write_bytes(data)
-    operator = started(state, file)
-    assert operator.answer("DISCARD").number == 1
-    assert "discarded-1; Ctrl+O lists it." in operator.said
-    assert temporaries(file) == []
     operator.left()
-    [copy] = kept_copies(file.parent, state)
-    opened = operator.service.open(file, kept_copy=copy.path)
-    assert isinstance(opened, Opened)
-    operator.took(opened)
-    assert operator.answer("RESTORE").number == 7
-
-
-def test_a_killed_save_equal_to_the_journal_or_the_file_is_removed(state: Path, file: Path) -> None:
-    operator = started(state, file).type(7)
-    data = operator.document.data()
-    temporary_path(file, len(data)).write_bytes(data)
-    temporary_path(file, len(file.read_bytes())).write_bytes(file.read_bytes())
-    operator.killed()
-    again = started(state, file).answer("DISCARD")
-    assert again.offer is None
+    grown_old(file)
+    started(state, file).left()
     assert temporaries(file) == []
+
+
+def test_what_a_killed_save_left_stays_beside_a_file_that_cannot_be_read(state: Path, part: Path) -> None:
+    data = content(part, 7)
+    killed_while(part, data, "_taken_on")
+    grown_old(part)
+    part.write_bytes(data[:30])
+    opened = service(state).open(part)
+    assert isinstance(opened, Trouble)
+    [left] = temporaries(part)
+    assert part.with_name(left).read_bytes() == data
 
 
 def test_a_save_in_progress_is_left_alone(state: Path, file: Path) -> None:
-    data = content(file, 7)
-    path = temporary_path(file, len(data))
-    path.write_bytes(data)
-    with path.open("rb") as held:
-        flock(held, LOCK_EX)
-        assert started(state, file).offer is None
+    path = temporary_path(file)
+    path.write_bytes(b"half")
+    assert started(state, file).offer is None
     assert path.exists()
 
 
@@ -147,18 +133,13 @@ def test_killed_saves_of_others_and_other_files_are_left_alone(
     others = [file.with_name(name) for name in (".part.tmp", f".{file.name}.tmp", f".{file.name}.0123.tmp", "part.tmp")]
     for path in others:
         path.write_text("somebody's")
-    data = content(file, 7)
-    path = temporary_path(file, len(data))
-    path.write_bytes(data)
+    path = temporary_path(file)
+    path.write_bytes(b"somebody's")
+    for other in (*others, path):
+        os.utime(other, (0, 0))
     monkeypatch.setattr(os, "geteuid", lambda: 4242)
     assert started(state, file).offer is None
     assert all(other.exists() for other in (*others, path))
-
-
-def test_zeros_left_by_a_power_cut_are_removed(state: Path, file: Path) -> None:
-    temporary_path(file, 300).write_bytes(bytes(300))
-    assert started(state, file).offer is None
-    assert temporaries(file) == []
 
 
 def test_a_half_written_new_journal_is_removed(state: Path, file: Path) -> None:
