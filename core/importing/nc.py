@@ -65,8 +65,10 @@ def _refuse_alarm(result: ControlRun) -> None:
         return
     errors = [finding for finding in result.findings if finding.severity is Severity.ERROR]
     why = next((finding for finding in errors if finding.line == result.stopped_at), errors[0] if errors else None)
-    words = "" if why is None else f": {sentence(why, result.unit)}"
-    raise NcError(f"{display_name(result.control)} stops at line {result.stopped_at}{words}", tool=None if why is None else why.tool)
+    text = f"{display_name(result.control)} stops at line {result.stopped_at}"
+    if why is None:
+        raise NcError(text)
+    raise NcError(f"{text}: {sentence(why, result.unit)}", tool=why.tool)
 
 
 def _run_notes(result: ControlRun) -> tuple[str, ...]:
