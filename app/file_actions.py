@@ -7,24 +7,22 @@ from __future__ import annotations
 
 import asyncio
 from collections.abc import Callable, Iterable
-from concurrent.futures import Future, wait
 from functools import partial
 from pathlib import Path
-from typing import TYPE_CHECKING, Any, Final, TypeVar
+from typing import TYPE_CHECKING, Any, TypeVar
 
 from textual import work
 
 from app.derivation_actions import DerivationActions
 from app.documents.document import AnyDocument, ContourDocument, Document, NcDocument
-from app.documents.files import refuse_program, why, write_data, write_output
+from app.documents.files import refuse_program, write_output
 from app.documents.left_overs import file_of_copy
 from app.documents.nc_text import NC_SUFFIXES
 from app.documents.paths import chosen, is_drawing, is_folder, program_named, short_path, typed, with_suffix, written_at
-from app.documents.patience import DISK_SECONDS, FILE_SECONDS, Disk, within
+from app.documents.patience import Disk
 from app.documents.questions import (
     DISCARD,
     GO_BACK,
-    LEAVE,
     NEW_PROGRAM,
     SAVE,
     Ask,
@@ -33,7 +31,6 @@ from app.documents.questions import (
     into_which,
     leaving,
     name_of,
-    not_answering,
 )
 from app.documents.service import DocumentService, Notice, Offer, Opened, Saved, Trouble
 from app.documents.settings import Settings, SettingsFile
@@ -52,14 +49,11 @@ if TYPE_CHECKING:
 
 Result = TypeVar("Result")
 
-NO_ANSWER: Final = "The folder does not answer: still trying. You can go on; it is not on the disk yet."
-ANSWERS: Final = "The folder answers again: all work is on the disk."
-
 
 class FileActions(DerivationActions):
-    """The App's part for files: `disk` does all work on them, one task after the other.
+    """The App's part for files: `disk` does all work on them, one task after the other, and keys wait for it.
 
-    Keys wait half a second for a task; then they go on, and later edits are written once the folder answers.
+    So a key acts on what the one before it has opened, saved or asked, however slow the folder is.
     """
 
     service: DocumentService
@@ -70,8 +64,6 @@ class FileActions(DerivationActions):
     def __init__(self, *, ansi_color: bool | None = None) -> None:
         super().__init__(ansi_color=ansi_color)
         self.disk = Disk()
-        self._pending = set[Future[Any]]()
-        self._edited_meanwhile = False
 
     def show_drawing(self, path: Path, *, fresh: bool = False) -> None:
         """Open IMPORT on a drawing for the open program, which takes the drawing's unit if it is `fresh`."""
@@ -79,37 +71,6 @@ class FileActions(DerivationActions):
         from app.screens.import_drawing import ImportScreen
 
         self.push_screen(ImportScreen(path, fresh=fresh))
-
-    # ---- the disk, which may not respond
-
-    def _ask_disk(self, work: Callable[[], Result]) -> Future[Result]:
-        """Queue work on the disk and wait for it briefly, unless earlier work is still pending."""
-        future = self.disk.do(work)
-        if not self._pending:
-            wait([future], DISK_SECONDS)
-        self._pending.add(future)
-        if not future.done():
-            self.say(NO_ANSWER, Tone.WARNING)
-        return future
-
-    async def _answer(self, future: Future[Result]) -> Result:
-        try:
-            return future.result() if future.done() else await asyncio.wrap_future(future)
-        finally:
-            self._pending.discard(future)
-            if self._edited_meanwhile:
-                # after the caller has used the result
-                self.call_later(self._keep_rest)
-
-    async def on_disk(self, work: Callable[[], Result]) -> Result:
-        """Do work on the disk and return its result; call only in a worker."""
-        return await self._answer(self._ask_disk(work))
-
-    def disk_is_behind(self) -> bool:
-        """True if disk work is still pending; then also say so."""
-        if self._pending:
-            self.say(NO_ANSWER, Tone.WARNING)
-        return bool(self._pending)
 
     # ---- every edit goes to disk
 
@@ -119,28 +80,8 @@ class FileActions(DerivationActions):
         self.keep_document(self.document)
 
     def keep_document(self, document: Document) -> None:
-        """Write a document's edits to disk, later if earlier disk work is still pending."""
-        if self.disk_is_behind():
-            self._edited_meanwhile = True
-            return
-        future = self._ask_disk(lambda: self.service.keep(document))
-        if future.done():
-            self._pending.discard(future)
-            self.tell(future.result())
-        else:
-            self._kept_late(future)
-
-    @work(group="disk")
-    async def _kept_late(self, future: Future[Notice | None]) -> None:
-        self.tell(await self._answer(future) or Notice(ANSWERS))
-
-    def _keep_rest(self) -> None:
-        """Write what was edited while the disk did not answer."""
-        if self._pending or not self._edited_meanwhile:
-            return
-        self._edited_meanwhile = False
-        for document in self._all_open():
-            self.keep_document(document)
+        """Write a document's edits to disk, or say why they are not there."""
+        self.tell(self.disk.do(lambda: self.service.keep(document)))
 
     def apply(self, edited: Edited, label: str) -> bool:
         """Apply an edit, or say why it is refused; return whether it was applied."""
@@ -256,7 +197,7 @@ class FileActions(DerivationActions):
     async def _ask_offer(self, document: AnyDocument, offer: Offer) -> None:
         """Ask, then adopt the resulting document; if it is the same one, the screen stays, even HOME."""
         word = await self.ask(offer.ask)
-        opened = await self.on_disk(lambda: self.service.answer(document, offer, word))
+        opened = self.disk.do(lambda: self.service.answer(document, offer, word))
         if opened.document is not document:
             self.adopt(opened)
         else:
@@ -272,8 +213,6 @@ class FileActions(DerivationActions):
 
         Ask first about unsaved changes.
         """
-        if self.disk_is_behind():
-            return
         service, here = self.service, self.document.file.path
 
         def opened() -> Opened[Any] | Trouble | Path:
@@ -283,7 +222,7 @@ class FileActions(DerivationActions):
             file = file_of_copy(path, path.parent)
             return service.copy_without_name(path) if file is None else service.open(file, kept_copy=path)
 
-        result = await self.on_disk(opened)
+        result = self.disk.do(opened)
         if isinstance(result, Trouble) and result.open_already is not None:
             await self._open_already(result, opened, again=kept_copy)
         elif isinstance(result, Trouble):
@@ -297,7 +236,7 @@ class FileActions(DerivationActions):
 
     async def _open_drawing(self, path: Path) -> None:
         """Open IMPORT on a drawing; unless the open program is new, ask whether to import into it or a new one."""
-        if not await self.on_disk(path.is_file):
+        if not self.disk.do(path.is_file):
             self.say(f"{short_path(path)}: there is no such drawing.", Tone.ERROR)
             return
         program, fresh = self.document.program, self.document.is_new
@@ -316,7 +255,7 @@ class FileActions(DerivationActions):
         document = opened.document
         if isinstance(document, ContourDocument):
             if not await self.may_close("OPEN?", self._all_open()):
-                await self.on_disk(lambda: self.service.close(document))
+                self.disk.do(lambda: self.service.close(document))
                 return
             await self.close_documents(self._all_open())
         self.adopt(opened)
@@ -327,7 +266,7 @@ class FileActions(DerivationActions):
         """Show the document that is already open; reopen it if its file has changed or a kept copy was chosen."""
         document = trouble.open_already
         assert document is not None
-        again = again or await self.on_disk(lambda: self.service.changed(document))
+        again = again or self.disk.do(lambda: self.service.changed(document))
         if not again or document.kind is not self.document.kind:
             proof = next((proof for proof in self.proofs if proof.document.file.opening is document.file.opening), None)
             if proof is None:
@@ -337,7 +276,7 @@ class FileActions(DerivationActions):
             self.say(trouble.text)
         elif await self.may_close("OPEN AGAIN?", self._all_open()):
             await self.close_documents(self._all_open())
-            result = await self.on_disk(opened)
+            result = self.disk.do(opened)
             self.adopt(result if isinstance(result, Opened) else self.service.new())
             if isinstance(result, Trouble):
                 self.say(result.text, Tone.ERROR)
@@ -355,7 +294,7 @@ class FileActions(DerivationActions):
 
     async def _new(self, title: str, unit: Unit) -> bool:
         """Start a new program if everything open may be closed; return whether it was started."""
-        if self.disk_is_behind() or not await self.may_close(title, self._all_open()):
+        if not await self.may_close(title, self._all_open()):
             return False
         await self.close_documents(self._all_open())
         self.adopt(self.service.new(unit))
@@ -391,7 +330,7 @@ class FileActions(DerivationActions):
             for document in closing:
                 self.service.close(document)
 
-        await self.on_disk(close)
+        self.disk.do(close)
 
     def show_nc(self, document: NcDocument, asked: Asked | None = None) -> None:
         """Open NC PROOF on a text; `asked` holds the control, tools and unit of the command line."""
@@ -411,7 +350,7 @@ class FileActions(DerivationActions):
 
     def action_save(self) -> None:
         """Save the NC text in front, or else the program, under its name; ask for a name if it has none."""
-        if self.disk_is_behind() or not self.take_typed():
+        if not self.take_typed():
             return
         document = self.document if self.proof is None else self.proof.document
         if document.file.path is None:
@@ -435,41 +374,13 @@ class FileActions(DerivationActions):
         self.push_screen(OpenPathScreen(f"{folder}/" if folder else ""))
 
     def save_as(self, text: str) -> None:
-        """Save under a typed name; while the disk does not answer, write only a copy elsewhere."""
+        """Save under a typed name."""
         proof = self.proofs[-1] if self.proofs and self.screen_stack[-2:-1] == self.proofs[-1:] else None
-        if self.disk_is_behind():
-            if proof is not None and not proof.take_lines():
-                return
-            self._save_copy(self.document if proof is None else proof.document, typed(text))
-        elif proof is not None:
+        if proof is not None:
             old = proof.document.file.path
             self._save(proof, with_suffix(typed(text), ".nc" if old is None else old.suffix))
         else:
             self._save(None, typed(text))
-
-    @work(group="question")
-    async def _save_copy(self, document: AnyDocument, path: Path) -> None:
-        """Write a copy elsewhere while the disk does not answer; it asks nothing and never replaces a file."""
-
-        def write() -> str:
-            named = chosen(path, document.file.path)
-            named = program_named(named) if isinstance(document, ContourDocument) else with_suffix(named, ".nc")
-            if named.exists():
-                raise StoreError(f"{short_path(named)} is there already: type another name.")
-            write_data(named, document.data())
-            return written_at(named)
-
-        try:
-            written = await asyncio.to_thread(within, FILE_SECONDS, write)
-        except TimeoutError:
-            self.say("That folder does not answer either. Type a name on another disk, such as ~/copy.", Tone.ERROR)
-        except StoreError as error:
-            self.say(error.text, Tone.ERROR)
-        except (OSError, ValueError) as error:
-            self.say(f"{short_path(path)} is not saved: {why(error)}", Tone.ERROR)
-        else:
-            self._leave_save_as()
-            self.say(f"A copy is in {written}. {name_of(document)} itself still waits for its folder.", Tone.WARNING)
 
     async def write_made(self, text: str, suffix: str, make: Callable[[Path], str]) -> tuple[str, str] | None:
         """Write the text from `make` under a typed name; return where it was written and the text, None if it was not.
@@ -477,7 +388,7 @@ class FileActions(DerivationActions):
         Ask before replacing a file; report the errors of `make` and the disk.  Call only in a worker.
         """
         file = self.session.file
-        path = await self.on_disk(lambda: with_suffix(chosen(typed(text), file), suffix))
+        path = self.disk.do(lambda: with_suffix(chosen(typed(text), file), suffix))
 
         def before() -> Ask | None:
             refuse_program(path)
@@ -488,11 +399,11 @@ class FileActions(DerivationActions):
             return written_at(path)
 
         try:
-            ask = await self.on_disk(before)
+            ask = self.disk.do(before)
             if ask is not None and await self.ask(ask) == GO_BACK:
                 return None
             made = await asyncio.to_thread(make, path)
-            return await self.on_disk(partial(written, made)), made
+            return self.disk.do(partial(written, made)), made
         except StoreError as error:
             self.say(error.text, Tone.ERROR)
             return None
@@ -500,8 +411,6 @@ class FileActions(DerivationActions):
     @work(group="question", description="close")
     async def close_nc(self, document: NcDocument) -> None:
         """Close an NC text; ask about unsaved changes."""
-        if self.disk_is_behind():
-            return
         if await self.may_close("LEAVE?", [document]) and self.proof is not None:
             document = self.proof.document
             await self.close_documents([document])
@@ -521,7 +430,7 @@ class FileActions(DerivationActions):
             if not name.strip():
                 return None
             path = typed(name)
-        while isinstance(result := await self.on_disk(partial(self.service.save, document, path, agreed)), Ask):
+        while isinstance(result := self.disk.do(partial(self.service.save, document, path, agreed)), Ask):
             word = await self.ask(result)
             if word == GO_BACK:
                 return None
@@ -572,11 +481,7 @@ class FileActions(DerivationActions):
 
     @work(group="question")
     async def _leave(self) -> None:
-        if self._pending:
-            # exiting also ends the thread that waits for the folder
-            if await self.ask(not_answering()) == LEAVE:
-                self.exit(0)
-        elif await self.may_close("QUIT?", self._all_open()):
+        if await self.may_close("QUIT?", self._all_open()):
             await self.close_documents(self._all_open())
             self.exit(0)
 

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import os
 import sys
+from contextlib import suppress
 from dataclasses import replace
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
@@ -12,6 +13,7 @@ from app.cli.shell import NOTHING_ASKED, STATUS_UNUSABLE, TerminalOptions, say
 from app.documents.document import ContourDocument
 from app.documents.nc_text import NC_SUFFIXES
 from app.documents.paths import is_drawing, program_named
+from app.documents.patience import EXIT_SECONDS
 from app.documents.programs import empty_program
 from app.documents.service import DocumentService, Notice, Opened, Trouble
 from app.documents.settings import SettingsFile, load_settings, settings_file
@@ -119,12 +121,16 @@ def guarded(service: DocumentService, app: CutcompApp, *, mouse: bool = False) -
     """Run the App to its end, wanted or not; unsaved work stays in the journals."""
     from app.terminal.signals import Safety
 
-    safety = Safety(lambda status: app.exit(status, return_code=status), lambda: app.disk.finish(service.stop))
+    def last() -> None:
+        with suppress(TimeoutError):
+            app.disk.do(service.stop, EXIT_SECONDS)
+
+    safety = Safety(lambda status: app.exit(status, return_code=status), last)
     safety.arm()
     try:
         app.run(mouse=mouse)
     finally:
-        app.disk.finish(service.stop)
+        last()
     if safety.status is not None:
         safety.leave()
     return app.return_code or 0

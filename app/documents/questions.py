@@ -21,7 +21,6 @@ from core.units import printable
 
 GO_BACK: Final = "GO BACK"
 SAVE: Final = "SAVE"
-LEAVE: Final = "LEAVE"
 DISCARD: Final = "DISCARD"
 RESTORE: Final = "RESTORE"
 NOT_MINE: Final = "LEAVE IT"
@@ -116,12 +115,6 @@ def _unsaved_sentence(document: Document) -> str:
         return f"{name_of(document)} has changes that are not saved."
     title = document.title if isinstance(document, ContourDocument) else ""
     return f"{title or name_of(document)} was never saved."
-
-
-def not_answering() -> Ask:
-    """Ask before quitting while disk work is still pending."""
-    lines = ("The folder does not answer.", "What was typed since then is not on the disk. GO BACK waits for it.")
-    return Ask("QUIT?", lines, (Answer(LEAVE, "what is not on the disk is lost"),))
 
 
 # ---- before a file is written

@@ -75,12 +75,6 @@ def tmp_path() -> Iterator[Path]:
 
 
 @pytest.fixture(autouse=True)
-def _patient(monkeypatch: pytest.MonkeyPatch) -> None:
-    """Wait long for the disk, so that a busy machine does not change the results."""
-    monkeypatch.setattr("app.file_actions.DISK_SECONDS", 20.0)
-
-
-@pytest.fixture(autouse=True)
 def _painted_at_rest(monkeypatch: pytest.MonkeyPatch) -> None:
     """Let a screen be painted when a test waits for it, and not several times on the way there."""
     monkeypatch.setattr("textual.screen.UPDATE_PERIOD", 1.0)

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import os
 import signal
+import sys
 import termios
 import time
 from contextlib import suppress
@@ -13,6 +14,7 @@ import pytest
 
 from app.documents.files import load
 from app.documents.left_overs import read
+from app.documents.patience import EXIT_SECONDS
 from app.terminal.signals import GRACE_SECONDS
 from core.program.history import History
 from core.program.model import Number
@@ -160,6 +162,38 @@ def test_a_blocked_terminal_cannot_keep_the_program_alive(part: Path) -> None:
     assert edits > 5
     assert history.undo_count == edits
     assert history.undo_label == "TOOL of START, block 1"
+
+
+HANGING = """
+import os, sys, time
+from pathlib import Path
+from app.cli.screens import run
+
+real = os.fsync
+def hanging(handle):
+    real(handle)
+    if Path(sys.argv[1]).with_name("hang").exists():
+        time.sleep(1000)
+os.fsync = hanging
+sys.exit(run(Path(sys.argv[1])))
+"""
+
+
+def test_a_hanging_folder_cannot_keep_the_program_alive(part: Path) -> None:
+    hang = part.with_name("hang")
+    with running([sys.executable, "-c", HANGING, str(part)]) as terminal:
+        terminal.until("MILL CONTOUR")
+        terminal.send(b"7\t")
+        terminal.until("undo 1")
+        hang.touch()
+        journal = part.with_name(".part.toml.cutcomp-journal")
+        size = journal.stat().st_size
+        terminal.send(b"\x1b[A8\t")
+        while journal.stat().st_size == size:
+            time.sleep(0.01)
+        os.kill(terminal.pid, signal.SIGTERM)
+        assert ended(terminal.pid, GRACE_SECONDS + EXIT_SECONDS + PATIENCE) == 143
+    assert read(journal).work.program.blocks[0].tool == Number(8.0)
 
 
 def test_a_full_disk_is_reported_and_work_continues(part: Path) -> None:
