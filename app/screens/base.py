@@ -189,6 +189,8 @@ class BaseScreen(Screen[None]):
 
     def show_signs(self) -> None:
         """Redraw everything else that has signs after the character set has changed."""
+        if self.stands:
+            self.show_session(self.current_session)
 
     @on(ScreenResume)
     def _keep_styles(self, event: ScreenResume) -> None:

@@ -133,10 +133,6 @@ class DrawScreen(BaseScreen):
         if before is None and self.run is not None and self.run.code == "NOT_YET":
             self.action_pick()
 
-    def show_signs(self) -> None:
-        """Redraw the signs of the chips and of the heading."""
-        self.show_session(self.current_session)
-
     def _show_heading(self) -> None:
         marks = MARKS_OF_CHARACTERS[self.host.characters]
         self.drawing.heading = "DRAWING" if self.at is None else heading(self.entries, self.at, marks)

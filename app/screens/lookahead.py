@@ -61,10 +61,6 @@ class LookaheadScreen(BaseScreen):
         for label, width in COLUMNS:
             values.add_column(label, width=width)
 
-    def show_signs(self) -> None:
-        """Redraw the signs of the table."""
-        self.show_session(self.current_session)
-
     def show_session(self, session: Session) -> None:
         """Show one row per value; the cursor starts on the recommended value, else on the one in force."""
         table, values = session.lookahead_table, self.query_one("#values", DataTable)

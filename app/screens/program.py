@@ -84,10 +84,6 @@ class ProgramScreen(BaseScreen):
         for label, width in COLUMNS:
             table.add_column(label, width=width)
 
-    def show_signs(self) -> None:
-        """Redraw the signs of the table."""
-        self.show_session(self.current_session)
-
     def show_session(self, session: Session) -> None:
         """Show one row per block."""
         table, marks = self.query_one("#blocks", DataTable), MARKS_OF_CHARACTERS[self.host.characters]

@@ -63,25 +63,20 @@ class FindingsList(OptionRows):
         self._width = 0
         self.border_title, self.border_subtitle = "FINDINGS", "n next  p before"
 
-    def watch_entries(self) -> None:
-        """Show other findings; the highlight keeps its index, or goes to the last one if there are fewer."""
-        self._show()
-
-    def watch_characters(self) -> None:
-        """Redraw the signs."""
-        self._show()
-
     def on_resize(self) -> None:
         """Wrap the sentences again at a new width."""
         if self._width != self.scrollable_content_region.width:
             self._show()
 
     def _show(self) -> None:
+        """Show the findings; the highlight keeps its index, or goes to the last one if there are fewer."""
         now, at, self._width = self.entries, self.highlighted, self.scrollable_content_region.width
         self.border_title = f"FINDINGS  {len(now)}" if now else "FINDINGS  none"
         self.clear_options()
         self.add_options([Option(self._line(number, entry), id=str(number)) for number, entry in enumerate(now)])
         self.highlighted = None if not now else min(at or 0, len(now) - 1)
+
+    watch_entries = watch_characters = _show
 
     def _line(self, number: int, entry: Entry) -> Content:
         """Return the title and the segment, then what the sentence says besides its title."""

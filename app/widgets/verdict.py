@@ -112,14 +112,6 @@ class Verdict(Vertical):
         yield PlainText(id="strip")
         yield PlainText(id="chips")
 
-    def watch_case(self) -> None:
-        """Show the verdict on another path."""
-        self._show()
-
-    def watch_characters(self) -> None:
-        """Redraw the signs."""
-        self._show()
-
     def _show(self) -> None:
         if not self.is_mounted or self.case is None:
             return
@@ -130,6 +122,8 @@ class Verdict(Vertical):
             static = self.query_one(f"#{name}", Static)
             if static.content != line:
                 static.update(line, layout=False)
+
+    watch_case = watch_characters = _show
 
 
 def title(case: Case) -> str:
