@@ -3,8 +3,6 @@
 from __future__ import annotations
 
 from contextlib import suppress
-from math import inf
-from time import monotonic
 from typing import TYPE_CHECKING, cast
 
 from textual import on, work
@@ -51,7 +49,6 @@ class DerivationActions(WorkActions):
     stopped: Program | DerivedBlock | None = None
     """What Esc has stopped: the calculation of a program, or of a block's look-ahead table."""
     _advice_timer: Timer | None = None
-    closed_at: float = -inf
     _unit_mentioned = _unit_settled = False
 
     def say(self, text: str, tone: Tone = Tone.PLAIN) -> None:
@@ -245,15 +242,9 @@ class DerivationActions(WorkActions):
                 check(1.0)
                 self.post_message(TableMade(block, noted, advised=True))
 
-    async def action_back(self) -> None:
-        """Close the screen in front."""
-        self.closed_at = monotonic()
-        await super().action_back()
-
     def _uncover(self, depth: int) -> None:
         """Bring the screen at `depth` of the stack to the front; close those above it."""
         for _ in self.screen_stack[depth + 1 :]:
-            self.closed_at = monotonic()
             self.pop_screen()
 
     def begin(self, session: Session) -> None:

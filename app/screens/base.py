@@ -15,7 +15,6 @@ A dialog is a `ModalScreen` in `app/screens/dialogs.py`.
 from __future__ import annotations
 
 from abc import abstractmethod
-from time import monotonic
 from typing import TYPE_CHECKING, ClassVar, Final, cast
 
 from textual import on
@@ -49,8 +48,6 @@ if TYPE_CHECKING:
 SMALLEST = (60, 20)
 """Columns and rows of the smallest supported terminal."""
 
-TWO_PRESSES: Final = 0.5
-"""Seconds within which a key may have been pressed twice for one."""
 WIDTH_CLASSES: Final = [(0, "-narrow"), (80, "-native"), (100, "-medium"), (132, "-wide"), (190, "-huge")]
 HEIGHT_CLASSES: Final = [(0, "-short"), (28, "-tall")]
 """The style class of a screen from each number of columns, or of lines, upward."""
@@ -211,13 +208,6 @@ class BaseScreen(Screen[None]):
         if isinstance(self.focused, Input):
             self.app.cursor_position = self.focused.cursor_screen_offset
             self.focused.refresh()
-
-    def refuse_delete(self) -> bool:
-        """Refuse to delete, and say so, if the key may be the second press of one for a screen that has closed."""
-        refused = monotonic() - self.host.closed_at < TWO_PRESSES
-        if refused:
-            self.say("Nothing is deleted: another screen has just closed. Press the key again.", Tone.WARNING)
-        return refused
 
     @property
     def in_view(self) -> bool:

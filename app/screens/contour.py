@@ -744,8 +744,6 @@ class ContourScreen(FormScreen):
 
     def action_delete_segment(self) -> None:
         """Delete the segment with the cursor."""
-        if self.refuse_delete():
-            return
         session, place = self.current_session, self.current_session.place
         label = f"DELETE SEGMENT {place.segment}, block {place.block}"
         segments = self.query_one(SegmentList)

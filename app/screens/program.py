@@ -184,8 +184,6 @@ class ProgramScreen(BaseScreen):
 
     def action_delete_block(self) -> None:
         """Delete the block with the cursor."""
-        if self.refuse_delete():
-            return
         at = self.chosen
         if self.host.apply(delete_block(self.current_session.program, at), f"DELETE BLOCK {at}"):
             self.notify(f"Deleted block {at}. Ctrl+Z brings it back.", timeout=3)

@@ -265,7 +265,7 @@ class ToolsScreen(FormScreen):
     def action_delete_tool(self) -> None:
         """Delete the tool with the cursor."""
         tool, program = self.tool, self.current_session.program
-        if tool is None or self.refuse_delete():
+        if tool is None:
             return
         if self.host.apply(delete_tool(program, tool.number), f"DELETE TOOL {tool.number}"):
             uses = ", ".join(_uses(program, tool.number))

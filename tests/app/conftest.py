@@ -81,12 +81,6 @@ def _painted_at_rest(monkeypatch: pytest.MonkeyPatch) -> None:
 
 
 @pytest.fixture(autouse=True)
-def _quick_keys(monkeypatch: pytest.MonkeyPatch) -> None:
-    """Let a test delete as soon as another screen has closed."""
-    monkeypatch.setattr("app.screens.base.TWO_PRESSES", 0.0)
-
-
-@pytest.fixture(autouse=True)
 def _own_state(monkeypatch: pytest.MonkeyPatch) -> Iterator[None]:
     """Give each test its own state folder, apart from the user's."""
     with TemporaryDirectory(prefix="cutcomp-", ignore_cleanup_errors=True) as folder:

@@ -482,21 +482,21 @@ async def test_del_and_ins_delete_and_insert_segments_in_the_list():
         assert len(user.session.block.segments) == 12
 
 
-async def test_a_softkey_that_closed_a_screen_deletes_nothing_when_it_is_pressed_twice(monkeypatch, tmp_path):
-    monkeypatch.setattr("app.screens.base.TWO_PRESSES", 60.0)
+async def test_a_block_deleted_by_a_second_press_of_a_softkey_is_said_and_comes_back(monkeypatch, tmp_path):
     monkeypatch.chdir(tmp_path)
     async with operator("pocket") as user:
-        await user.press("f8")
+        await user.press("f8", "c")
         user.app.action_post()
         await user.settle()
-        await user.press("f1", "f1")
-        await user.settle()
+        await user.press("f1")
+        await everything(user)
         await user.press("f1")
         assert len(user.session.program.blocks) == 1
-        assert user.prompt.startswith("Nothing is deleted: another screen has just closed.")
-        monkeypatch.setattr("app.screens.base.TWO_PRESSES", 0.0)
+        assert "Deleted block 2. Ctrl+Z brings it back." in [each.message for each in user.app._notifications]
         await user.press("f1")
         assert user.prompt.startswith("The only block cannot be deleted")
+        await user.press("ctrl+z")
+        assert len(user.session.program.blocks) == 2
 
 
 async def test_undo_puts_the_cursor_on_the_tool_that_comes_back():
