@@ -63,8 +63,6 @@ READING_PROMPT: Final = (
     "Enter edits, N and P go from finding to finding, C another control, T a tool's diameter, V compares all controls."
 )
 EDITING_PROMPT: Final = "Editing. A line is taken when the cursor leaves it; Esc ends editing."
-DIAMETER_STEPS: Final = {Unit.IN: 0.001, Unit.MM: 0.01}
-"""The step by which < and > change a diameter."""
 SEVERITY_ORDER: Final = tuple(Severity)
 """Severities, the most severe first."""
 _NAMED: Final = re.compile(r"\s*([^=]*[^=\s])\s*=(.*)")
@@ -89,8 +87,6 @@ class ProofScreen(BaseScreen):
         Binding("t,T", "tool", "Tool diameter", show=False),
         Binding("v,V", "compare", "Compare controls", show=False),
         Binding("b,B", "no_dotted_path", "No dotted path", show=False),
-        Binding("less_than_sign", "diameter(-1)", "Smaller", show=False),
-        Binding("greater_than_sign", "diameter(1)", "Larger", show=False),
         Binding("plus,equals_sign", "zoom(1)", "Zoom in", show=False),
         Binding("minus", "zoom(-1)", "Zoom out", show=False),
         Binding("0", "fit", "Whole program", show=False),
@@ -667,15 +663,6 @@ class ProofScreen(BaseScreen):
             self.host.keep_settings(self.host.settings.with_tools(file, tools_text(given)))
         self._ask(replace(self.question, tools=tools))
 
-    def action_diameter(self, by: int) -> None:
-        """Make the tool one step smaller or larger and run the program again."""
-        tool = self.question.tools.get(self.tool)
-        if tool is None:
-            self.say(f"Tool {self.tool} has no diameter yet: T gives it one.")
-            return
-        size = round(tool.diameter + by * DIAMETER_STEPS[tool.unit or self.unit], 6)
-        self._with_tool(replace(tool, diameter=size))
-
     # ---- the frame
 
     def show_state_on(self, status: Status) -> None:
@@ -698,7 +685,7 @@ class ProofScreen(BaseScreen):
             "C chooses the control, V compares all controls.",
             "The drawing shows the whole path, the moves of the line in hand, and the cutter at its end.",
             "In the list of V, Space draws another control's path dotted under this one; B removes it.",
-            "T gives a tool its diameter, < and > make it smaller and larger, and the verdict follows.",
+            "T gives a tool its diameter, and the verdict follows.",
             "+ and - zoom, 0 shows the whole program, M changes the characters of the drawing.",
         )
 

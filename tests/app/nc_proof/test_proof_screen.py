@@ -108,7 +108,7 @@ async def test_an_unknown_tool_stops_the_control_until_its_diameter_is_typed(tmp
         await with_tool(user)
         assert "gouges by 0.1250" in user.outcome
         assert "1=0.25" in str(user.proof.query_one("#proof-tools", Label).content)
-        await user.press(">")
+        await with_tool(user, "1=.251")
         assert "gouges by 0.1255" in user.outcome
 
 
@@ -222,7 +222,7 @@ async def test_n_and_p_step_through_the_findings_from_the_gravest_one(tmp_path):
         assert user.line == lines[0]
         await user.press("p")
         assert user.prompt == "No earlier finding."
-        await user.press(">")
+        await with_tool(user, "1=.251")
         assert user.line == lines[options.highlighted], "the chosen one stays highlighted after another run"
 
 
