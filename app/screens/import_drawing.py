@@ -15,7 +15,6 @@ from textual.app import ComposeResult
 from textual.binding import Binding, BindingType
 from textual.containers import Horizontal, Vertical
 from textual.content import Content
-from textual.timer import Timer
 from textual.widgets import DataTable, Input, Label, Static
 
 from app.documents.drawing_files import (
@@ -64,7 +63,7 @@ from core.importing.contours import (
 from core.importing.drawing import Drawing as ReadDrawing
 from core.importing.drawing import DrawingError, DrawingUnit
 from core.importing.listing import Row, matching, rows_of, sentences, unit_question
-from core.importing.scene import MAX_PIECES, background, contours_scene
+from core.importing.scene import background, contours_scene
 from core.importing.segments import MAX_SEGMENTS, DoesNotFitError, ImportedBlock, with_contours
 from core.pipeline.plot import Drawn, SceneSubject
 from core.program.edit import FormPlace
@@ -76,9 +75,6 @@ Result = TypeVar("Result")
 
 SAME_START: Final = 1e-6
 """Millimeters within which a start counts as the usual one."""
-
-REST_SECONDS: Final = 0.15
-"""Seconds that the cursor must rest on a row of a large drawing before the row is drawn."""
 
 MAX_NOTES: Final = 2
 """Most notes about imported contours, or about fitted arcs, that one message shows."""
@@ -164,7 +160,6 @@ class ImportScreen(BaseScreen):
         self._unfolded: set[int] = set()
         self._backdrop: tuple[Contour, ...] = ()
         self._working, self._stopped = "", False
-        self._timer: Timer | None = None
         self._failed = ""
 
     def compose_body(self) -> ComposeResult:
@@ -371,13 +366,7 @@ class ImportScreen(BaseScreen):
         """Show the remarks on the row with the cursor, and its drawing."""
         self.query_one("#import-about", Static).update(Content("\n").join(self._about()))
         self.refresh_frame()
-        if self._timer is not None:
-            self._timer.stop()
-        is_large = sum(len(contour.pieces) for contour in self._backdrop) > MAX_PIECES
-        if is_large:
-            self._timer = self.set_timer(REST_SECONDS, self._draw)
-        else:
-            self._draw()
+        self._draw()
 
     def _draw(self) -> None:
         drawing, contour = self.picture, self.contour
