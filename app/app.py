@@ -33,7 +33,7 @@ from app.session.posting import CENTER_PATH
 from app.session.session import SEGMENT_FIELD, Session
 from app.terminal.split_keys import KEY_WARNINGS
 from app.transform_actions import TransformActions
-from app.widgets.printable import PRINTABLE
+from app.widgets.plain import PRINTABLE
 from app.widgets.status import Surroundings
 from core.program.edit import FormPlace
 from core.units import Unit

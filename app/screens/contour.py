@@ -36,9 +36,8 @@ from app.session.messages import Sentence, Tone
 from app.session.session import SEGMENT_FIELD, Cursor, Session
 from app.session.work import Work
 from app.widgets.drawing import Drawing
-from app.widgets.field import LISTED_FIELDS, ChoiceField, NumberField
+from app.widgets.field import LISTED_FIELDS, ChoiceField, Form, NumberField
 from app.widgets.findings_list import FindingsList
-from app.widgets.form import Form
 from app.widgets.picture import Picture
 from app.widgets.plain import PlainLabel
 from app.widgets.segment_list import SegmentList

@@ -15,8 +15,7 @@ from app.screens.base import BaseScreen
 from app.screens.dialogs import ChooseLine
 from app.screens.values import prompt_of, unread_text, unusable
 from app.session.messages import Sentence, Tone
-from app.widgets.field import ChoiceField, NumberField
-from app.widgets.form import Form
+from app.widgets.field import ChoiceField, Form, NumberField
 from core.finding import Severity
 from core.program.edit import Edited, Refused
 from core.program.fields import Field, read_typed, text_refusal

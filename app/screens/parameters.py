@@ -16,8 +16,7 @@ from app.screens.form_screen import FormScreen
 from app.screens.values import cell_of
 from app.session.messages import Sentence
 from app.session.session import Session
-from app.widgets.field import Cell, ChoiceField
-from app.widgets.form import Form
+from app.widgets.field import Cell, ChoiceField, Form
 from app.widgets.plain import PlainLabel
 from app.widgets.softkeys import Softkey
 from core.program.edit import Edited, set_parameter, set_path_choice, set_setup, set_unit
