@@ -37,13 +37,10 @@ class CellSheet:
 
 
 def write_signs(sheet: CellSheet, scene: Scene, view: View, mode: Mode) -> None:
-    """Write a scene's axis names, scale bar, labels and marks over a picture's cells."""
+    """Write a scene's axis names, labels and marks over a picture's cells."""
     columns, rows, look = sheet.columns, sheet.rows, CELLS_OF_MODE[mode]
-    if columns >= LEAST_COLUMNS and rows >= LEAST_ROWS:
-        if scene.axes:
-            _name_axes(sheet, view)
-        if scene.unit is not None:
-            _write(sheet, rows - 1, scale_bar(view.scale, columns, scene.unit, look.bar), Style.SCALE)
+    if scene.axes and columns >= LEAST_COLUMNS and rows >= LEAST_ROWS:
+        _name_axes(sheet, view)
     _write_labels(sheet, scene, view)
     positions = view.cells([mark.at for mark in scene.marks], columns, rows)
     for (column, row), mark in zip(positions, scene.marks, strict=True):

@@ -131,7 +131,7 @@ class Subject:
 
     def drawn(self, columns: int, rows: int, mode: Mode) -> Drawn | None:
         """Return the picture in columns x rows cells; None if there is nothing to see."""
-        scene = replace(block_scene(self.block, self.segment, self.unit, self.row), unit=None)
+        scene = block_scene(self.block, self.segment, self.unit, self.row)
         scene = _outlined(scene, self) if self.outline else replace(scene, axes=self.near is None)
         bounds = scene.extent(without=DRAWN_AGAIN)
         if bounds is None or columns < 1 or rows < 1:
@@ -178,7 +178,7 @@ class SceneSubject:
         if bounds is None or columns < 1 or rows < 1:
             return None
         view = self.view or View.fit(bounds, columns, rows)
-        picture = draw(replace(self.scene, unit=None), view, columns, rows, mode)
+        picture = draw(self.scene, view, columns, rows, mode)
         return Drawn(picture, view, scale_bar(view.scale, columns, self.unit, CELLS_OF_MODE[mode].bar), bounds)
 
 
