@@ -19,7 +19,7 @@ from typing import Final, NamedTuple
 
 from rich.cells import cell_len
 
-from app.terminal.fewer_bytes import PLAIN_STYLE, SHOWN_ON_BLANKS, TOKEN, Pen, Style, alike_on_blanks, read, slim
+from app.terminal.fewer_bytes import PLAIN_STYLE, SHOWN_ON_BLANKS, TOKEN, Pen, Style, alike_on_blanks, read
 
 NEUTRAL: Final = re.compile(
     r"(?:\x1b\[\?(?:7|25|1000|1003|1004|1006|1015|1016|2004|2026|2048)(?:h|l|\$p)|\x1b\]22;[^\x07\x1b]*(?:\x07|\x1b\\)|\x07)*"
@@ -87,7 +87,7 @@ class Shown:
         picture = parsed(data, columns, rows)
         if picture is None or not (self.lines or picture.whole(columns, rows)):
             self._drop_known()
-            return slim(data)
+            return data
         self.lines = self.lines or [[None] * columns for _ in range(rows)]
         return self._update(picture.over(self.lines), picture.cursor)
 

@@ -76,24 +76,6 @@ def alike_on_blanks(now: Style, then: Style) -> bool:
     return not visible and now.paper == then.paper
 
 
-def slim(data: str) -> str:
-    """Return a shorter text with the same effect on the terminal; it begins and ends in plain style."""
-    pen = Pen()
-    wanted = PLAIN_STYLE
-    for style, place, other, text in TOKEN.findall(data):
-        if text:
-            pen.write(text, wanted)
-        elif place:
-            pen.out.append(place)
-        elif other:
-            pen.turn(wanted)
-            pen.out.append(other)
-        else:
-            wanted = PLAIN_STYLE if style in ("", "0") else read(style)
-    pen.turn(PLAIN_STYLE)
-    return "".join(pen.out)
-
-
 @dataclass(slots=True)
 class Pen:
     """What goes to the terminal, and the style in force."""
