@@ -30,12 +30,12 @@ from app.session.block_findings import Entry
 from app.session.derivation import Request
 from app.session.messages import Tone
 from app.session.posting import CENTER_PATH
-from app.session.session import SEGMENT_FIELD, Session
+from app.session.session import Session
 from app.terminal.split_keys import KEY_WARNINGS
 from app.transform_actions import TransformActions
 from app.widgets.plain import PRINTABLE
 from app.widgets.status import Surroundings
-from core.program.edit import FormPlace
+from core.program.edit import SEGMENT_FIELD, FormPlace
 from core.units import Unit
 
 if TYPE_CHECKING:

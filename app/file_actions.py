@@ -38,8 +38,8 @@ from app.screens.base import BaseScreen
 from app.screens.dialogs import Phrase, Question
 from app.session.derivation import Request
 from app.session.messages import Tone
-from app.session.session import SEGMENT_FIELD, Session
-from core.program.edit import Edited, FormPlace, Refused
+from app.session.session import Session
+from core.program.edit import SEGMENT_FIELD, Edited, FormPlace, Refused
 from core.program.file.read import StoreError
 from core.units import Unit
 

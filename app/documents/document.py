@@ -12,16 +12,11 @@ from app.documents.journal import Journal, Kind, Place
 from app.documents.lock import Owner
 from app.documents.nc_text import MAX_NC_BYTES, NcText
 from app.documents.programs import empty_program
-from core.program.edit import FormPlace
+from core.program.edit import FIRST_START, SEGMENT_FIELD, FormPlace
 from core.program.file.read import loads_bytes
 from core.program.file.write import dumps
 from core.program.history import History
 from core.program.model import Program
-
-SEGMENT_FIELD: Final = "segment"
-"""The field that the cursor is on when a program is opened."""
-FIRST_START: Final = FormPlace(1, 0)
-"""START of block 1."""
 
 
 @dataclass(frozen=True, eq=False, slots=True)

@@ -438,7 +438,7 @@ class DocumentService:
             gone = self._write_journal(kept, known, document)
         except (OSError, StoreError) as error:
             kept.failing = True
-            return Notice(f"Not on disk: {_reason(error)} SAVE AS (Ctrl+K) saves elsewhere.", warning=True)
+            return Notice(f"Not on disk: {_reason(error)} {SAVE_ELSEWHERE}", warning=True)
         was_failing, kept.failing = kept.failing, False
         return (
             self._taken_notice(kept)

@@ -33,7 +33,7 @@ from app.screens.values import prompt_of
 from app.session.block_findings import TO_TYPE, WAITING_CODES, Entry, block_findings, remedy
 from app.session.guide import on_form
 from app.session.messages import Sentence, Tone
-from app.session.session import SEGMENT_FIELD, Cursor, Session
+from app.session.session import Cursor, Session
 from app.session.work import Work
 from app.widgets.drawing import Drawing
 from app.widgets.field import LISTED_FIELDS, ChoiceField, Form, NumberField
@@ -47,6 +47,7 @@ from core.finding import Finding, Severity
 from core.pipeline.derived import DerivedBlock
 from core.program import fields as table
 from core.program.edit import (
+    SEGMENT_FIELD,
     Edited,
     FormPlace,
     Refused,

@@ -7,22 +7,17 @@ from __future__ import annotations
 
 from dataclasses import dataclass, replace
 from pathlib import Path
-from typing import TYPE_CHECKING, Final
+from typing import TYPE_CHECKING
 
 from app.session.changes import changed
 from core.pipeline.derived import Derived, DerivedBlock
 from core.pipeline.fields_stage import solve_fields
-from core.program.edit import FormPlace, is_empty
+from core.program.edit import FIRST_START, SEGMENT_FIELD, FormPlace, is_empty
 from core.program.history import History
 from core.program.model import Block, Program, Segment
 
 if TYPE_CHECKING:
     from core.advice.lookahead_table import Table
-
-SEGMENT_FIELD: Final = "segment"
-"""The name of the SEGMENT line, on which the cursor steps from segment to segment."""
-
-START_OF_FIRST_BLOCK: Final = FormPlace(1, 0)
 
 
 @dataclass(frozen=True, eq=False, slots=True)
@@ -32,7 +27,7 @@ class Cursor:
     Every move makes a new cursor, so that a screen detects a move by identity; later focus changes are not recorded.
     """
 
-    place: FormPlace = START_OF_FIRST_BLOCK
+    place: FormPlace = FIRST_START
     field: str | None = SEGMENT_FIELD
 
 

@@ -54,6 +54,12 @@ class FormPlace:
     segment: int = 0
 
 
+FIRST_START: Final = FormPlace(1)
+"""START of block 1."""
+SEGMENT_FIELD: Final = "segment"
+"""The name of the SEGMENT line, on which the cursor steps from segment to segment."""
+
+
 @dataclass(frozen=True, slots=True)
 class Refused:
     """A refused edit, with the sentence that says why."""

@@ -6,9 +6,9 @@ from dataclasses import replace
 
 from app.documents.programs import empty_program
 from app.session.changes import changed
-from app.session.session import SEGMENT_FIELD, Session
+from app.session.session import Session
 from core.pipeline.fields_stage import solve_fields
-from core.program.edit import FormPlace
+from core.program.edit import SEGMENT_FIELD, FormPlace
 from core.program.model import LineSegment, Number, Program
 
 
