@@ -3,17 +3,20 @@
 from __future__ import annotations
 
 import os
-from collections.abc import Iterator
+from collections.abc import AsyncIterator, Iterator
 from pathlib import Path
 from tempfile import TemporaryDirectory
 from typing import TYPE_CHECKING, Any
 
 import pytest
+import pytest_asyncio
 
 if TYPE_CHECKING:
     from textual.css.model import RuleSet
     from textual.css.tokenizer import Token
     from textual.css.types import CSSLocation
+
+    from tests.app.widget_pilot import Operator
 
 KEPT = "TEXTUAL_SNAPSHOT_"
 """Variables of the snapshot plugin, which may be set before this file is imported."""
@@ -77,7 +80,10 @@ def tmp_path() -> Iterator[Path]:
 @pytest.fixture(autouse=True)
 def _painted_at_rest(monkeypatch: pytest.MonkeyPatch) -> None:
     """Let a screen be painted when a test waits for it, and not several times on the way there."""
+    from tests.app.widget_pilot import paint_at_rest
+
     monkeypatch.setattr("textual.screen.UPDATE_PERIOD", 1.0)
+    monkeypatch.setattr("textual.screen.Screen._compositor_refresh", paint_at_rest)
 
 
 @pytest.fixture(autouse=True)
@@ -86,6 +92,26 @@ def _own_state(monkeypatch: pytest.MonkeyPatch) -> Iterator[None]:
     with TemporaryDirectory(prefix="cutcomp-", ignore_cleanup_errors=True) as folder:
         monkeypatch.setenv("XDG_STATE_HOME", folder)
         yield
+
+
+@pytest_asyncio.fixture(loop_scope="module", scope="module")
+async def opened() -> AsyncIterator[Operator]:
+    """Open one app for all tests of a module that take `user`."""
+    from tests.app.widget_pilot import PAINTED_AT_REST, operator
+
+    async with operator() as user:
+        PAINTED_AT_REST.add(user.app)
+        yield user
+
+
+@pytest_asyncio.fixture(loop_scope="module")
+async def user(opened: Operator) -> Operator:
+    """Begin anew on the pocket example, in the app of the module: to open another would cost most of a test.
+
+    The module or the test is marked `pytest.mark.asyncio(loop_scope="module")`.
+    """
+    await opened.begin("pocket")
+    return opened
 
 
 @pytest.fixture

@@ -7,13 +7,15 @@ from asyncio import sleep
 from collections.abc import AsyncIterator
 from contextlib import asynccontextmanager, suppress
 from time import monotonic
-from typing import Any
+from typing import Any, Final
+from weakref import WeakSet
 
+from textual.app import App
 from textual.events import Key
 from textual.keys import KEY_NAME_REPLACEMENTS, REPLACED_KEYS
 from textual.message_pump import MessagePump
 from textual.pilot import Pilot
-from textual.screen import ModalScreen
+from textual.screen import ModalScreen, Screen
 from textual.worker import WorkerCancelled
 
 from app.app import CutcompApp
@@ -32,6 +34,11 @@ QUIET_ROUNDS = 4
 """A wait ends after this many idle rounds; work deferred until after a repaint arrives in the next round."""
 ROUND = 0.005
 """Seconds between two looks at a worker that is not waited for to its end."""
+PAINTED_AT_REST: Final[WeakSet[App[Any]]] = WeakSet()
+"""Apps whose screens an operator paints."""
+UNPAINTED: Final[WeakSet[Screen[Any]]] = WeakSet()
+"""Screens that an operator paints once everything is at rest."""
+_PAINT: Final = Screen._compositor_refresh
 SURROUNDINGS = Surroundings(lambda: "12:00", lambda: 23 * 10**9)
 
 
@@ -49,6 +56,14 @@ def key_event(key: str) -> Key:
 def session_on(start: str | Program) -> Session:
     """An example by its name, or a program."""
     return Session.of(load(example(start)), title=start) if isinstance(start, str) else Session.of(start)
+
+
+def paint_at_rest(screen: Screen[Any]) -> None:
+    """Leave the painting to the operator: a screen is laid out several times as it opens."""
+    if screen.app in PAINTED_AT_REST:
+        UNPAINTED.add(screen)
+    else:
+        _PAINT(screen)
 
 
 class Operator:
@@ -107,8 +122,20 @@ class Operator:
             if not busy:
                 # as the pilot does: without waiting for the next frame
                 self.app.screen._on_timer_update()
+                if self.app.screen in UNPAINTED:
+                    UNPAINTED.discard(self.app.screen)
+                    _PAINT(self.app.screen)
             await sleep(ROUND if others and not busy else 0)
             rounds = 0 if working or others or busy or self._busy() else rounds + 1
+
+    async def finish(self) -> None:
+        """Wait for every worker, including those that draw, post and advise, and for what they start."""
+        for _ in range(2):
+            for worker in list(self.app.workers):
+                # one is canceled when another replaces it
+                with suppress(WorkerCancelled):
+                    await worker.wait()
+            await self.settle()
 
     def _busy(self) -> bool:
         """Whether a widget has a message left or handles one: else its task waits at its queue."""
