@@ -22,135 +22,127 @@ from app.widgets.verdict import Verdict
 from core.pipeline.derived import Derived
 from core.program.edit import FormPlace
 from core.program.model import LineSegment, Number, Unread
-from tests.app.widget_pilot import operator
+from tests.app.widget_pilot import Operator, operator
+
+pytestmark = pytest.mark.asyncio(loop_scope="module")
 
 
-async def test_an_unreadable_text_stays_marked_and_escape_restores_the_old_value():
-    async with operator() as user:
-        await user.press("pagedown", "tab", "'77", "escape")
-        assert user.value("x_end") == "4.0000"
-        assert user.session.history.undo_count == 0
-        await user.press("'1a5", "enter")
-        assert isinstance(user.session.block.segments[0].x_end, Unread)
-        assert (user.value("x_end"), user.tag("x_end"), user.at) == ("1a5", "ERR", "x_end")
-        assert "1a5" in user.prompt
+async def test_an_unreadable_text_stays_marked_and_escape_restores_the_old_value(user: Operator):
+    await user.press("pagedown", "tab", "'77", "escape")
+    assert user.value("x_end") == "4.0000"
+    assert user.session.history.undo_count == 0
+    await user.press("'1a5", "enter")
+    assert isinstance(user.session.block.segments[0].x_end, Unread)
+    assert (user.value("x_end"), user.tag("x_end"), user.at) == ("1a5", "ERR", "x_end")
+    assert "1a5" in user.prompt
 
 
-async def test_a_typed_look_ahead_is_previewed_refused_above_20_and_restored_by_f3():
-    async with operator() as user:
-        await user.send(*["down"] * 11)
-        await user.press("1")
-        assert user.app.shown.derived_block.lookahead.value == 1
-        assert user.session.derived_block.lookahead.value == 8, "a half-typed number is not taken"
-        await user.press("escape")
-        assert user.app.shown is user.session
-        await user.press("'21", "enter")
-        assert user.session.block.lookahead is None, "a refused one keeps the old value"
-        assert (user.value("lookahead"), user.tag("lookahead"), user.at) == ("8", "CAL", "lookahead")
-        await user.press("2", "enter")
-        assert (user.value("lookahead"), user.tag("lookahead")) == ("2", "USR")
-        await user.press("f3")
-        assert (user.value("lookahead"), user.tag("lookahead")) == ("8", "CAL")
+async def test_a_typed_look_ahead_is_previewed_refused_above_20_and_restored_by_f3(user: Operator):
+    await user.send(*["down"] * 11)
+    await user.press("1")
+    assert user.app.shown.derived_block.lookahead.value == 1
+    assert user.session.derived_block.lookahead.value == 8, "a half-typed number is not taken"
+    await user.press("escape")
+    assert user.app.shown is user.session
+    await user.press("'21", "enter")
+    assert user.session.block.lookahead is None, "a refused one keeps the old value"
+    assert (user.value("lookahead"), user.tag("lookahead"), user.at) == ("8", "CAL", "lookahead")
+    await user.press("2", "enter")
+    assert (user.value("lookahead"), user.tag("lookahead")) == ("2", "USR")
+    await user.press("f3")
+    assert (user.value("lookahead"), user.tag("lookahead")) == ("8", "CAL")
 
 
-async def test_undo_and_redo_move_the_cursor_to_what_they_change():
-    async with operator() as user:
-        await user.press("pagedown", "tab", "'5.5", "enter")
-        assert user.session.block.segments[0].x_end == Number(5.5)
-        assert (user.value("x_end"), user.at) == ("5.5000", "y_end")
-        assert user.session.derived_block.known
-        await user.press("pagedown", "pagedown", "ctrl+z")
-        assert user.session.place == FormPlace(1, 1)
-        assert (user.at, user.value("x_end")) == ("x_end", "4.0000")
-        await user.press("ctrl+y")
-        assert user.value("x_end") == "5.5000"
-        await user.press("tab", "'9", "ctrl+z")
-        assert user.session.history.redo_count == 1, "a half-typed number is discarded"
-        assert user.value("y_end") == "0.2500"
+async def test_undo_and_redo_move_the_cursor_to_what_they_change(user: Operator):
+    await user.press("pagedown", "tab", "'5.5", "enter")
+    assert user.session.block.segments[0].x_end == Number(5.5)
+    assert (user.value("x_end"), user.at) == ("5.5000", "y_end")
+    assert user.session.derived_block.known
+    await user.press("pagedown", "pagedown", "ctrl+z")
+    assert user.session.place == FormPlace(1, 1)
+    assert (user.at, user.value("x_end")) == ("x_end", "4.0000")
+    await user.press("ctrl+y")
+    assert user.value("x_end") == "5.5000"
+    await user.press("tab", "'9", "ctrl+z")
+    assert user.session.history.redo_count == 1, "a half-typed number is discarded"
+    assert user.value("y_end") == "0.2500"
 
 
-async def test_moving_between_segments_shows_the_form_of_each_kind():
-    async with operator() as user:
-        kinds = []
-        for _ in range(5):
-            await user.press("right")
-            kinds.append(str(user.screen.query_one("#segment-kind").render()))
-        assert kinds == ["LINE", "ARC", "LINE", "BLEND ARC", "LINE"]
-        assert user.at == "segment"
+async def test_moving_between_segments_shows_the_form_of_each_kind(user: Operator):
+    kinds = []
+    for _ in range(5):
+        await user.press("right")
+        kinds.append(str(user.screen.query_one("#segment-kind").render()))
+    assert kinds == ["LINE", "ARC", "LINE", "BLEND ARC", "LINE"]
+    assert user.at == "segment"
 
 
-async def test_a_number_on_segment_goes_to_that_segment():
-    async with operator() as user:
-        for typed in ("I1.2", "2,400.5", "1-2"):
-            await user.press(f"'{typed}", "enter")
-            assert user.prompt == f"{typed} is no segment number: type digits only, such as 3, then Enter."
-            assert user.session.place.segment == 0
-            await user.begin("pocket")
-        await user.press("'8", "enter")
-        assert user.session.place.segment == 8
-        await user.press("'12", "enter")
-        assert user.session.place.segment == 8
-        assert "No segment 12" in user.prompt
+async def test_a_number_on_segment_goes_to_that_segment(user: Operator):
+    for typed in ("I1.2", "2,400.5", "1-2"):
+        await user.press(f"'{typed}", "enter")
+        assert user.prompt == f"{typed} is no segment number: type digits only, such as 3, then Enter."
+        assert user.session.place.segment == 0
+        await user.begin("pocket")
+    await user.press("'8", "enter")
+    assert user.session.place.segment == 8
+    await user.press("'12", "enter")
+    assert user.session.place.segment == 8
+    assert "No segment 12" in user.prompt
 
 
-async def test_f1_deletes_a_segment_but_not_start():
-    async with operator() as user:
-        await user.press("f1")
-        assert user.prompt == "START cannot be deleted."
-        assert user.session.history.undo_count == 0
-        await user.press("'3", "enter", "f1")
-        assert len(user.session.block.segments) == 10
-        await user.press("ctrl+z")
-        assert len(user.session.block.segments) == 11
+async def test_f1_deletes_a_segment_but_not_start(user: Operator):
+    await user.press("f1")
+    assert user.prompt == "START cannot be deleted."
+    assert user.session.history.undo_count == 0
+    await user.press("'3", "enter", "f1")
+    assert len(user.session.block.segments) == 10
+    await user.press("ctrl+z")
+    assert len(user.session.block.segments) == 11
 
 
-async def test_a_choice_of_two_words_is_typed_with_its_space():
-    async with operator() as user:
-        await user.press("down", "down", *"profile", "space", *"right")
-        assert user.value("cutter_comp") == "PROFILE RIGHT"
-        assert not user.screen.query_one("#fields ChoiceField", ChoiceField).expanded
-        await user.press("up", "down", "space")
-        assert user.screen.query_one("#fields ChoiceField", ChoiceField).expanded
+async def test_a_choice_of_two_words_is_typed_with_its_space(user: Operator):
+    await user.press("down", "down", *"profile", "space", *"right")
+    assert user.value("cutter_comp") == "PROFILE RIGHT"
+    assert not user.screen.query_one("#fields ChoiceField", ChoiceField).expanded
+    await user.press("up", "down", "space")
+    assert user.screen.query_one("#fields ChoiceField", ChoiceField).expanded
 
 
-async def test_enter_after_text_that_is_no_choice_stays_once_and_names_all_of_it():
-    async with operator() as user:
-        await user.press("tab", "tab", "'33")
-        assert user.prompt == "33 is not a choice. Left and right change it."
-        await user.press("enter")
-        assert (user.at, user.value("cutter_comp")) == ("cutter_comp", "LEFT")
-        assert user.prompt == "33 is not a choice. Left and right change it."
-        await user.press("enter")
-        assert user.at == "x_start"
-        await user.press("up", "up", "'-.5", "right", "enter")
-        assert (user.at, user.value("cutter_comp")) == ("x_start", "RIGHT")
+async def test_enter_after_text_that_is_no_choice_stays_once_and_names_all_of_it(user: Operator):
+    await user.press("tab", "tab", "'33")
+    assert user.prompt == "33 is not a choice. Left and right change it."
+    await user.press("enter")
+    assert (user.at, user.value("cutter_comp")) == ("cutter_comp", "LEFT")
+    assert user.prompt == "33 is not a choice. Left and right change it."
+    await user.press("enter")
+    assert user.at == "x_start"
+    await user.press("up", "up", "'-.5", "right", "enter")
+    assert (user.at, user.value("cutter_comp")) == ("x_start", "RIGHT")
 
 
-async def test_a_choice_can_be_typed_stepped_or_listed():
-    async with operator() as user:
-        await user.press("down", "down", "r")
-        assert str(user.session.block.cutter_comp) == "RIGHT"
-        await user.press("'p", "'r")
-        assert str(user.session.block.cutter_comp) == "PROFILE LEFT"
-        await user.press("left")
-        assert str(user.session.block.cutter_comp) == "RIGHT"
-        await user.press("space", "up", "enter")
-        assert str(user.session.block.cutter_comp) == "LEFT"
-        await user.press("q")
-        assert user.prompt == "Q is not a choice. Left and right change it."
+async def test_a_choice_can_be_typed_stepped_or_listed(user: Operator):
+    await user.press("down", "down", "r")
+    assert str(user.session.block.cutter_comp) == "RIGHT"
+    await user.press("'p", "'r")
+    assert str(user.session.block.cutter_comp) == "PROFILE LEFT"
+    await user.press("left")
+    assert str(user.session.block.cutter_comp) == "RIGHT"
+    await user.press("space", "up", "enter")
+    assert str(user.session.block.cutter_comp) == "LEFT"
+    await user.press("q")
+    assert user.prompt == "Q is not a choice. Left and right change it."
 
 
-async def test_a_new_block_keeps_tool_feeds_and_depths():
-    async with operator() as user:
-        await user.press("f8")
-        assert type(user.screen).__name__ == "ProgramScreen"
-        await user.press("f2")
-        assert user.session.place == FormPlace(2, 0)
-        message = "Tool, feeds and depths as in block 1: Z BOTTOM -0.2500, PECK DEPTH 0.1000."
-        assert depths_kept(user.session.program, 2) == message
-        assert type(user.screen).__name__ == "ContourScreen"
-        await user.press("tab", "'3", "enter")
-        assert user.session.block.tool == Number(3.0)
+async def test_a_new_block_keeps_tool_feeds_and_depths(user: Operator):
+    await user.press("f8")
+    assert type(user.screen).__name__ == "ProgramScreen"
+    await user.press("f2")
+    assert user.session.place == FormPlace(2, 0)
+    message = "Tool, feeds and depths as in block 1: Z BOTTOM -0.2500, PECK DEPTH 0.1000."
+    assert depths_kept(user.session.program, 2) == message
+    assert type(user.screen).__name__ == "ContourScreen"
+    await user.press("tab", "'3", "enter")
+    assert user.session.block.tool == Number(3.0)
 
 
 async def test_going_back_from_quit_leaves_the_text_half_typed():
@@ -179,48 +171,47 @@ async def test_an_unconfirmed_segment_number_does_not_keep_quit_waiting():
         assert not user.app.is_running
 
 
-async def test_a_larger_terminal_shows_the_segment_list_with_its_rows():
-    async with operator() as user:
-        await user.pilot.resize_terminal(132, 43)
-        await user.settle()
-        assert user.screen.query_one("#segments", DataTable).row_count == 12
+async def test_a_larger_terminal_shows_the_segment_list_with_its_rows(user: Operator):
+    await user.pilot.resize_terminal(132, 43)
+    await user.settle()
+    assert user.screen.query_one("#segments", DataTable).row_count == 12
 
 
-async def test_the_findings_list_explains_its_keys_and_shows_each_finding_once():
-    async with operator("notch") as user:
-        await user.press("f10")
-        assert user.prompt.startswith("Up and down show the places of the findings.")
-        shown = "".join(str(option.prompt) for option in user.screen.query_one("#findings", OptionList).options)
-        assert shown.count("Corner too tight") == 1
+async def test_the_findings_list_explains_its_keys_and_shows_each_finding_once(user: Operator):
+    await user.restart("notch")
+    await user.press("f10")
+    assert user.prompt.startswith("Up and down show the places of the findings.")
+    shown = "".join(str(option.prompt) for option in user.screen.query_one("#findings", OptionList).options)
+    assert shown.count("Corner too tight") == 1
 
 
-async def test_closing_a_list_returns_the_cursor_to_its_field():
-    async with operator("notch") as user:
-        await user.press(*["down"] * 3)
-        field = user.at
-        for key in ("f9", "f10"):
-            # the key of the findings first makes their list taller
-            again = (key,) if key == "f9" else (key, key)
-            for close in (again, ("escape",)):
-                await user.press(key)
-                await user.press(*close)
-                assert user.at == field, (key, close)
-                await user.press("3")
-                assert isinstance(user.screen, ContourScreen)
-                assert (user.at, user.screen.half_typed) == (field, True), (key, close)
-                await user.press("escape")
-        await user.press("f9", "down", "f9")
-        assert user.at == "segment"
+async def test_closing_a_list_returns_the_cursor_to_its_field(user: Operator):
+    await user.restart("notch")
+    await user.press(*["down"] * 3)
+    field = user.at
+    for key in ("f9", "f10"):
+        # the key of the findings first makes their list taller
+        again = (key,) if key == "f9" else (key, key)
+        for close in (again, ("escape",)):
+            await user.press(key)
+            await user.press(*close)
+            assert user.at == field, (key, close)
+            await user.press("3")
+            assert isinstance(user.screen, ContourScreen)
+            assert (user.at, user.screen.half_typed) == (field, True), (key, close)
+            await user.press("escape")
+    await user.press("f9", "down", "f9")
+    assert user.at == "segment"
 
 
-async def test_the_letters_a_message_offers_work():
-    async with operator("notch") as user:
-        await user.press("ctrl+end", "pagedown", "a")
-        assert user.at == "direction"
-        await user.press("pagedown")
-        assert "L LINE" in user.prompt
-        await user.press("l")
-        assert isinstance(user.session.segment, LineSegment)
+async def test_the_letters_a_message_offers_work(user: Operator):
+    await user.restart("notch")
+    await user.press("ctrl+end", "pagedown", "a")
+    assert user.at == "direction"
+    await user.press("pagedown")
+    assert "L LINE" in user.prompt
+    await user.press("l")
+    assert isinstance(user.session.segment, LineSegment)
 
 
 async def test_the_field_with_the_cursor_scrolls_into_view_on_a_tiny_terminal():
@@ -231,7 +222,7 @@ async def test_the_field_with_the_cursor_scrolls_into_view_on_a_tiny_terminal():
         assert user.screen.query_one("#desk").region.contains_region(user.screen.focused.region)
 
 
-async def test_the_preview_of_a_half_typed_number_ends_with_the_typing(monkeypatch):
+async def test_the_preview_of_a_half_typed_number_ends_with_the_typing(user: Operator, monkeypatch):
     """The derivation of the half-typed number ends only after the typing does."""
     may_end = Event()
 
@@ -239,107 +230,98 @@ async def test_the_preview_of_a_half_typed_number_ends_with_the_typing(monkeypat
         may_end.wait(20)
         return derived(request)
 
-    async with operator() as user:
-        await user.press("pagedown", "tab")
-        before = user.value("length")
-        monkeypatch.setattr("app.derivation_actions.derived", slow)
-        for end, keys in {"taken back": ("7", "escape"), "the same": ("4", "tab")}.items():
-            may_end.clear()
-            await user.send(*keys)
-            may_end.set()
-            await user.settle()
-            assert user.app.shown is user.session, end
-            assert user.value("length") == before, end
+    await user.press("pagedown", "tab")
+    before = user.value("length")
+    monkeypatch.setattr("app.derivation_actions.derived", slow)
+    for end, keys in {"taken back": ("7", "escape"), "the same": ("4", "tab")}.items():
+        may_end.clear()
+        await user.send(*keys)
+        may_end.set()
+        await user.settle()
+        assert user.app.shown is user.session, end
+        assert user.value("length") == before, end
 
 
-async def test_a_number_half_typed_on_another_screen_leaves_the_covered_form_alone():
+async def test_a_number_half_typed_on_another_screen_leaves_the_covered_form_alone(user: Operator):
     """DRAW moves the cursor to a segment of another kind while two screens cover the form."""
-    async with operator() as user:
-        await user.press("f5", "f7", "pagedown", "pagedown", "f8", "tab", "tab", "'2")
-        assert type(user.app.screen).__name__ == "PartSetupScreen"
-        await user.press("f8")
-        assert (user.session.place.segment, user.at) == (2, "segment")
-        assert user.row("x_center").display
+    await user.press("f5", "f7", "pagedown", "pagedown", "f8", "tab", "tab", "'2")
+    assert type(user.app.screen).__name__ == "PartSetupScreen"
+    await user.press("f8")
+    assert (user.session.place.segment, user.at) == (2, "segment")
+    assert user.row("x_center").display
 
 
-async def test_going_to_a_finding_on_another_screen_puts_the_cursor_on_segment():
-    async with operator() as user:
-        await user.press("f5", "tab", "'1", "tab", "f8", "pagedown", "tab", "tab")
-        entry = next(
-            finding for finding in user.screen.query_one(FindingsList).entries if finding.field == "work_offset"
-        )
-        user.app.go_to(entry)
-        await user.settle()
-        assert (user.session.place.segment, user.at) == (0, "segment")
+async def test_going_to_a_finding_on_another_screen_puts_the_cursor_on_segment(user: Operator):
+    await user.press("f5", "tab", "'1", "tab", "f8", "pagedown", "tab", "tab")
+    entry = next(finding for finding in user.screen.query_one(FindingsList).entries if finding.field == "work_offset")
+    user.app.go_to(entry)
+    await user.settle()
+    assert (user.session.place.segment, user.at) == (0, "segment")
 
 
-async def test_the_palette_can_be_reopened_at_once():
+async def test_the_palette_can_be_reopened_at_once(user: Operator):
     """It opens even before the closing palette is gone."""
-    async with operator() as user:
-        user.app.action_command_palette()
-        await user.settle()
-        user.app.pop_screen()
-        user.app.action_command_palette()
-        await user.settle()
-        assert isinstance(user.app.screen, Palette)
+    user.app.action_command_palette()
+    await user.settle()
+    user.app.pop_screen()
+    user.app.action_command_palette()
+    await user.settle()
+    assert isinstance(user.app.screen, Palette)
 
 
-async def test_switching_windows_does_not_take_a_half_typed_number():
-    async with operator() as user:
-        await user.press("pagedown", "tab", "'1")
-        user.app.post_message(AppBlur())
-        await user.settle()
-        user.app.post_message(AppFocus())
-        await user.settle()
-        assert user.session.history.undo_count == 0
-        await user.press("'.25")
-        assert user.value("x_end") == "1.25"
-        await user.press("enter")
-        assert user.session.program.blocks[0].segments[0].x_end == Number(1.25)
+async def test_switching_windows_does_not_take_a_half_typed_number(user: Operator):
+    await user.press("pagedown", "tab", "'1")
+    user.app.post_message(AppBlur())
+    await user.settle()
+    user.app.post_message(AppFocus())
+    await user.settle()
+    assert user.session.history.undo_count == 0
+    await user.press("'.25")
+    assert user.value("x_end") == "1.25"
+    await user.press("enter")
+    assert user.session.program.blocks[0].segments[0].x_end == Number(1.25)
 
 
 @pytest.mark.parametrize(
     ("keys", "close_key"), [(("f6", "tab", "tab", "'1", "enter"), "f8"), (("f4", "tab", "'.1", "enter"), "escape")]
 )
-async def test_edits_on_another_screen_show_in_verdict_and_findings(keys, close_key):
-    async with operator() as user:
-        before = user.screen.query_one(Verdict).case
+async def test_edits_on_another_screen_show_in_verdict_and_findings(user: Operator, keys, close_key):
+    before = user.screen.query_one(Verdict).case
+    await user.press(*keys)
+    await user.press(close_key)
+    assert user.session.history.undo_count == 1
+    verdict = user.screen.query_one(Verdict)
+    assert verdict.case is not before
+    assert verdict.case.block is user.session.derived_block
+    assert isinstance(user.screen, ContourScreen)
+    assert user.screen.entries == block_findings(
+        user.session.derived_block, user.session.lookahead_table, user.session.program.unit
+    )
+
+
+async def test_a_typed_look_ahead_is_taken_before_the_table_opens(user: Operator):
+    await user.restart("notch")
+    await user.press(*("tab",) * 11, "'12", "space")
+    assert isinstance(user.app.screen, LookaheadScreen)
+    await user.press("home", "enter")
+    taken = user.session.block.lookahead
+    assert taken != Number(12.0)
+    await user.press("tab", "tab")
+    assert user.session.block.lookahead == taken
+
+
+async def test_repeating_a_segment_removes_the_undo_message(user: Operator):
+    await user.restart("notch")
+    for keys in ((), ("ctrl+z",)):
         await user.press(*keys)
-        await user.press(close_key)
+        await user.app.run_action("app.repeat_shifted")
+        await user.press(*("enter",) * 5)
         assert user.session.history.undo_count == 1
-        verdict = user.screen.query_one(Verdict)
-        assert verdict.case is not before
-        assert verdict.case.block is user.session.derived_block
-        assert isinstance(user.screen, ContourScreen)
-        assert user.screen.entries == block_findings(
-            user.session.derived_block, user.session.lookahead_table, user.session.program.unit
-        )
+        assert "Undone" not in user.prompt
 
 
-async def test_a_typed_look_ahead_is_taken_before_the_table_opens():
-    async with operator("notch") as user:
-        await user.press(*("tab",) * 11, "'12", "space")
-        assert isinstance(user.app.screen, LookaheadScreen)
-        await user.press("home", "enter")
-        taken = user.session.block.lookahead
-        assert taken != Number(12.0)
-        await user.press("tab", "tab")
-        assert user.session.block.lookahead == taken
-
-
-async def test_repeating_a_segment_removes_the_undo_message():
-    async with operator("notch") as user:
-        for keys in ((), ("ctrl+z",)):
-            await user.press(*keys)
-            await user.app.run_action("app.repeat_shifted")
-            await user.press(*("enter",) * 5)
-            assert user.session.history.undo_count == 1
-            assert "Undone" not in user.prompt
-
-
-async def test_a_number_out_of_range_is_reported_with_its_range_while_typed():
-    async with operator() as user:
-        assert isinstance(user.screen, ContourScreen)
-        user.screen.focus_field("plunge_feed")
-        await user.press("'-6")
-        assert user.prompt == "PLUNGE FEED must be above 0, at most 10000, not -6. Still using 5.0."
+async def test_a_number_out_of_range_is_reported_with_its_range_while_typed(user: Operator):
+    assert isinstance(user.screen, ContourScreen)
+    user.screen.focus_field("plunge_feed")
+    await user.press("'-6")
+    assert user.prompt == "PLUNGE FEED must be above 0, at most 10000, not -6. Still using 5.0."
