@@ -69,7 +69,7 @@ class Terminal:
             self.stream.feed(data)
         return Answer(count, first, last)
 
-    def until(self, *texts: str, longest: float = 10.0) -> float:
+    def until(self, *texts: str, longest: float = 60.0) -> float:
         """Seconds until one of `texts` stands on the screen; AssertionError with the screen if none ever does."""
         begun = time.perf_counter()
         shown = self.text

@@ -50,13 +50,18 @@ def left_with_work(part: Path) -> None:
     started(part.parent / "own", part, DEAD).type(7).killed()
 
 
-def test_a_split_arrow_down_takes_the_number_and_moves_on(square: Path) -> None:
+def test_split_arrows_and_function_keys_act_as_whole_ones(square: Path) -> None:
     with on_x_start(square) as terminal:
         split(terminal, b"[B", 0.15)
         terminal.until("undo 1")
         terminal.send(b"3.5")
         split(terminal, b"[B", 0.28)
         terminal.until("undo 2")
+        for tail, title in ((b"OS", "PROGRAM PARAMETERS"), (b"[17~", "TOOL SETUP")):
+            split(terminal, tail, 0.15)
+            terminal.until(title)
+            terminal.send(b"\x1b[19~")
+            terminal.until("X START")
         terminal.send(b"\x13")
         terminal.until("Saved")
         assert "[B" not in terminal.text
@@ -64,16 +69,7 @@ def test_a_split_arrow_down_takes_the_number_and_moves_on(square: Path) -> None:
     assert (block.x_start, block.y_start) == (Number(2.5), Number(3.5))
 
 
-def test_a_split_function_key_presses_its_softkey(square: Path) -> None:
-    with on_x_start(square) as terminal:
-        for tail, title in ((b"OS", "PROGRAM PARAMETERS"), (b"[17~", "TOOL SETUP")):
-            split(terminal, tail, 0.15)
-            terminal.until(title)
-            terminal.send(b"\x1b[19~")
-            terminal.until("X START")
-
-
-def test_a_late_tail_is_reported_and_neither_typed_nor_a_key(square: Path) -> None:
+def test_a_late_tail_is_reported_and_neither_typed_nor_a_key_while_esc_still_works(square: Path) -> None:
     with on_x_start(square) as terminal:
         for number, tail in enumerate((b"[B", b"OS", b"[17~"), 1):
             split(terminal, tail, 0.6)
@@ -87,21 +83,17 @@ def test_a_late_tail_is_reported_and_neither_typed_nor_a_key(square: Path) -> No
             if number < 3:
                 terminal.send(b"2.5")
                 terminal.until("X START                 2.5")
-        terminal.send(b"\x13")
-        terminal.until("Saved")
-    assert load(square).blocks[0].x_start == Number(3.3)
-
-
-def test_esc_with_a_digit_and_esc_alone_still_work(square: Path) -> None:
-    with on_x_start(square) as terminal:
         terminal.send(ESC + b"6")
         terminal.until("IMPORT TABLE")
         terminal.send(ESC + b"8")
         terminal.until("where the contour starts")
         terminal.send(ESC)
-        terminal.until("1 to 8 press the softkey now", longest=2.0)
+        terminal.until("1 to 8 press the softkey now")
         terminal.send(b"6")
         terminal.until("IMPORT TABLE")
+        terminal.send(b"\x13")
+        terminal.until("Saved")
+    assert load(square).blocks[0].x_start == Number(3.3)
 
 
 def test_a_split_arrow_on_the_question_discards_nothing(square: Path) -> None:
@@ -119,16 +111,6 @@ def test_a_split_arrow_on_the_question_discards_nothing(square: Path) -> None:
         terminal.until("UNSAVED WORK FOUND", longest=30.0)
         terminal.send(b"r")
         terminal.until("Your work is back")
-
-
-def test_d_alone_on_the_question_keeps_a_backup(square: Path) -> None:
-    """Even a D typed by accident keeps the discarded work as a backup."""
-    left_with_work(square)
-    with running([*PROGRAM, str(square)]) as terminal:
-        terminal.until("UNSAVED WORK FOUND")
-        terminal.send(b"d")
-        terminal.until("Kept as a backup")
-    assert list(square.parent.glob(".square.toml.cutcomp-journal.discarded-*"))
 
 
 def test_keys_work_over_a_link_with_delays_of_up_to_300_ms(square: Path) -> None:

@@ -49,11 +49,11 @@ def test_every_sequence_of_a_function_key_presses_its_softkey(tmp_path: Path) ->
         for name, (sequence, number) in function_keys().items():
             terminal.send(sequence)
             try:
-                terminal.until(TITLES[number], longest=5.0)
+                terminal.until(TITLES[number])
             except AssertionError:
                 pytest.fail(f"{name}:\n{terminal.text}")
             terminal.send(b"\r" if number == 8 else ESC + b"8")
-            terminal.until("SEGMENT >", longest=5.0)
+            terminal.until("SEGMENT >")
 
 
 def test_f3_of_xterm_restores_the_calculated_look_ahead(tmp_path: Path) -> None:
@@ -83,12 +83,6 @@ def test_bytes_that_are_not_utf_8_do_not_end_the_program(tmp_path: Path) -> None
             terminal.send(b"\x1b[A")
 
 
-def test_an_idle_terminal_gets_no_bytes(tmp_path: Path) -> None:
-    with on_example(tmp_path) as terminal:
-        terminal.read(quiet=0.7)
-        assert sum(terminal.read(quiet=0.1, longest=0.1).count for _ in range(12)) <= CLOCK
-
-
 @pytest.mark.parametrize("more", [{"NO_COLOR": "1"}, {"TERM": "xterm"}], ids=str)
 def test_letters_and_the_cursor_are_visible(tmp_path: Path, more: dict[str, str]) -> None:
     with on_example(tmp_path, more=more) as terminal:
@@ -101,7 +95,8 @@ def test_letters_and_the_cursor_are_visible(tmp_path: Path, more: dict[str, str]
         assert (cursor.bg, cursor.reverse) != (label.bg, label.reverse)
 
 
-def test_the_hidden_cursor_is_on_the_field_after_a_screen_change(tmp_path: Path) -> None:
+def test_the_hidden_cursor_is_on_the_field_and_an_idle_terminal_gets_no_bytes(tmp_path: Path) -> None:
+    """At the end Ctrl+Q asks, and discarding ends the program with status 0."""
     with on_example(tmp_path) as terminal:
         assert terminal.screen.cursor.y == 1
         terminal.send(ESC + b"[17~")
@@ -112,10 +107,7 @@ def test_the_hidden_cursor_is_on_the_field_after_a_screen_change(tmp_path: Path)
         terminal.until("SEGMENT >")
         terminal.read(quiet=0.7)
         assert terminal.screen.cursor.y == 1
-
-
-def test_ctrl_q_asks_and_discarding_ends_with_status_0(tmp_path: Path) -> None:
-    with on_example(tmp_path) as terminal:
+        assert sum(terminal.read(quiet=0.1, longest=0.1).count for _ in range(12)) <= CLOCK
         terminal.send(b"\t9\r\x11")
         terminal.until("QUIT?")
         terminal.send(b"d")
