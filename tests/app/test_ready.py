@@ -10,7 +10,9 @@ from textual.widgets import Static
 from app.documents.files import load
 from app.documents.programs import example
 from core.program.model import Number, PathChoice, Program
-from tests.app.widget_pilot import Operator, operator
+from tests.app.widget_pilot import Operator
+
+pytestmark = pytest.mark.asyncio(loop_scope="module")
 
 READY_ALONE = "READY to post.\n"
 READY_BUT = "READY to post. Know before you run it:"
@@ -25,8 +27,7 @@ def program(name: str, lookahead: int, path: PathChoice = PathChoice.CONTROL) ->
 
 async def text_of(user: Operator, widget: str) -> str:
     """The text of a widget once all calculations are done."""
-    await user.app.workers.wait_for_complete()
-    await user.settle()
+    await user.finish()
     return str(user.screen.query_one(widget, Static).content)
 
 
@@ -40,21 +41,23 @@ async def text_of(user: Operator, widget: str) -> str:
     ],
 )
 async def test_ready_names_the_segments_that_the_look_ahead_deletes(
-    name: str, lookahead: int, path: PathChoice, deleted: str
+    user: Operator, name: str, lookahead: int, path: PathChoice, deleted: str, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    async with operator(program(name, lookahead, path)) as user:
-        user.app.action_post()
-        await user.settle()
-        findings = await text_of(user, "#post-findings")
-        assert "Ready to post." in findings
-        assert [line[line.index("DELETED") :] for line in findings.splitlines() if "DELETED" in line] == (
-            [f"DELETED block 1 segments {deleted}"] if deleted else []
-        )
-        await user.press("f8")
-        user.app.action_sheet()
-        await user.settle()
-        sheet = await text_of(user, "#sheet-text")
-        numbers = {"9": "SEGMENT 9", "2-4": "SEGMENTS 2, 3, 4"}
-        top = [line for line in sheet.split("TOOLS")[0].splitlines() if "DELETED" in line]
-        assert top == ([f"  ! Block 1: DELETED BY THE LOOK-AHEAD: {numbers[deleted]}"] if deleted else [])
-        assert READY_BUT in sheet or (READY_ALONE in sheet and not deleted)
+    # without the search for advice, which takes time
+    monkeypatch.setattr("app.derivation_actions.QUIET", 1000.0)
+    await user.begin(program(name, lookahead, path))
+    user.app.action_post()
+    await user.settle()
+    findings = await text_of(user, "#post-findings")
+    assert "Ready to post." in findings
+    assert [line[line.index("DELETED") :] for line in findings.splitlines() if "DELETED" in line] == (
+        [f"DELETED block 1 segments {deleted}"] if deleted else []
+    )
+    await user.press("f8")
+    user.app.action_sheet()
+    await user.settle()
+    sheet = await text_of(user, "#sheet-text")
+    numbers = {"9": "SEGMENT 9", "2-4": "SEGMENTS 2, 3, 4"}
+    top = [line for line in sheet.split("TOOLS")[0].splitlines() if "DELETED" in line]
+    assert top == ([f"  ! Block 1: DELETED BY THE LOOK-AHEAD: {numbers[deleted]}"] if deleted else [])
+    assert READY_BUT in sheet or (READY_ALONE in sheet and not deleted)
