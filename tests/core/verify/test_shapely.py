@@ -26,10 +26,9 @@ def material(case: Case) -> BaseGeometry | None:
     return box(-100.0, -100.0, 100.0, 100.0).difference(inner) if cutter_is_inside else inner
 
 
-@pytest.mark.parametrize("seed", range(2))
-def test_the_judge_and_shapely_agree(seed: int) -> None:
-    random, gouging, leaving = Random(seed), 0, 0
-    for case in corpus(100 + seed, 3):
+def test_the_judge_and_shapely_agree() -> None:
+    random, gouging, leaving = Random(0), 0, 0
+    for case in corpus(100, 3):
         kept_out = material(case)
         for mutation in MUTATIONS:
             path = mutation(random, case).path()
