@@ -1,4 +1,7 @@
-"""Two operators of one program, through real pseudo-terminals: killed work is offered again to its owner."""
+"""Two operators of one program, through real pseudo-terminals: killed work is offered again to its owner.
+
+What a take-over and an unreadable lock do is tested in `documents/test_left_overs.py` and `documents/test_lock.py`.
+"""
 
 from __future__ import annotations
 
@@ -7,8 +10,6 @@ import signal
 from collections.abc import Iterator
 from contextlib import contextmanager
 from pathlib import Path
-
-import pytest
 
 from app.documents.files import load
 from core.program.model import Number
@@ -73,51 +74,3 @@ def saved_over(terminal: Terminal) -> None:
     terminal.until("CHANGED MEANWHILE", longest=PATIENCE)
     terminal.send(b"y")
     terminal.until("Saved", longest=PATIENCE)
-
-
-def test_edits_typed_after_a_take_over_are_offered_at_the_next_start(part: Path) -> None:
-    with operator(part, "ann") as first:
-        first.until("MILL CONTOUR", longest=PATIENCE)
-        tool(first, "7", 1)
-        type_on_after_a_take_over(part, first)
-    with operator(part, "ann") as again:
-        again.until("UNSAVED WORK FOUND", longest=PATIENCE)
-        again.until("2 edits", longest=PATIENCE)
-
-
-def type_on_after_a_take_over(part: Path, first: Terminal) -> None:
-    """The same login takes over; nobody sees what the first program types afterwards."""
-    with operator(part, "ann") as second:
-        second.until("OPEN ALREADY", longest=PATIENCE)
-        second.send(b"t")
-        second.until("UNSAVED WORK FOUND", longest=PATIENCE)
-        second.send(b"r")
-        second.until("work is here", longest=PATIENCE)
-        first.send(b"\x1b[1;5H\t2\t")
-        first.until("has had this program open", longest=PATIENCE)
-        first.until("undo 2", longest=PATIENCE)
-        killed(first)
-        tool(second, "8", 2)
-        saved(second)
-
-
-@pytest.mark.parametrize("content", [b"", b'{"user": "a'])
-def test_an_empty_or_torn_lock_is_ignored(part: Path, content: bytes) -> None:
-    part.with_name(f".{part.name}.cutcomp-lock").write_bytes(content)
-    with operator(part, "ann") as ann:
-        ann.until("MILL CONTOUR", longest=PATIENCE)
-        ann.read(quiet=0.3)
-        assert "OPEN ALREADY" not in ann.text
-
-
-def test_a_look_only_program_says_so_and_cannot_be_edited(part: Path) -> None:
-    with operator(part, "ann") as ann:
-        ann.until("MILL CONTOUR", longest=PATIENCE)
-        with operator(part, "bob") as bob:
-            bob.until("OPEN ALREADY", longest=PATIENCE)
-            bob.send(b"l")
-            bob.until("LOOK ONLY part", longest=PATIENCE)
-            bob.send(b"\t7")
-            bob.read(quiet=0.3)
-            assert "LOOK ONLY part" in bob.text
-            assert "part *" not in bob.text
