@@ -19,7 +19,7 @@ from core.pipeline.setup_sheet import sheet_page, sheet_text
 from core.pipeline.unit_question import unit_question
 from core.program.model import Block, CutterComp, Number, Program, Tool
 from core.units import Unit, sentence
-from tests.app.widget_pilot import operator
+from tests.app.widget_pilot import Operator
 from tests.core.program.parts import line, program
 
 LARGE = "The tool is 0.5000 across, more than half of the part's smaller side, 0.9000. The program is in INCH."
@@ -62,63 +62,68 @@ def test_an_open_contour_asks_nothing() -> None:
     assert question(replace(closed, blocks=(replace(block, segments=block.segments[:-1]),))) == ""
 
 
-async def test_a_number_that_cannot_be_read_asks_nothing_about_the_other_contours() -> None:
+@pytest.mark.asyncio(loop_scope="module")
+async def test_a_number_that_cannot_be_read_asks_nothing_about_the_other_contours(user: Operator) -> None:
     """A slot in a large plate: the plate's size is unknown while one of its numbers cannot be read."""
     large, slot = plate(4, 3, 0.5), plate(1, 0.375, 0.25)
     both = replace(large, blocks=(*large.blocks, *slot.blocks))
     assert question(both) == ""
-    async with operator(both) as user:
-        await user.begin(both, 2, "x_end")
-        await user.press("'1.2.3", "enter")
-        assert user.prompt == "1.2.3 is not a number."
+    await user.begin(both)
+    await user.begin(both, 2, "x_end")
+    await user.press("'1.2.3", "enter")
+    assert user.prompt == "1.2.3 is not a number."
 
 
-async def test_the_form_asks_once() -> None:
-    async with operator(plate(4, 0.9, 0.5)) as user:
-        assert user.prompt == f"INCH or MM? {LARGE} UNITS is in PROGRAM PARAMETERS."
-        await user.press("down", "up")
-        assert "INCH or MM?" not in user.prompt
-        await user.press("ctrl+z")
-        assert "INCH or MM?" not in user.prompt
+@pytest.mark.asyncio(loop_scope="module")
+async def test_the_form_asks_once(user: Operator) -> None:
+    await user.begin(plate(4, 0.9, 0.5))
+    assert user.prompt == f"INCH or MM? {LARGE} UNITS is in PROGRAM PARAMETERS."
+    await user.press("down", "up")
+    assert "INCH or MM?" not in user.prompt
+    await user.press("ctrl+z")
+    assert "INCH or MM?" not in user.prompt
 
 
-async def test_posting_asks_until_it_is_answered_and_continues() -> None:
-    async with operator(plate(4, 0.9, 0.5)) as user:
-        for answer in ("escape", "i"):
-            user.app.action_post()
-            await user.settle()
-            question_screen = user.app.screen
-            assert isinstance(question_screen, Question)
-            assert question_screen.lines == (f"INCH or MM? {LARGE}",)
-            await user.press(answer)
-        assert isinstance(user.app.screen, PostScreen)
-        await user.press("escape")
+@pytest.mark.asyncio(loop_scope="module")
+async def test_posting_asks_until_it_is_answered_and_continues(user: Operator) -> None:
+    await user.begin(plate(4, 0.9, 0.5))
+    for answer in ("escape", "i"):
         user.app.action_post()
         await user.settle()
-        assert isinstance(user.app.screen, PostScreen)
+        question_screen = user.app.screen
+        assert isinstance(question_screen, Question)
+        assert question_screen.lines == (f"INCH or MM? {LARGE}",)
+        await user.press(answer)
+    assert isinstance(user.app.screen, PostScreen)
+    await user.press("escape")
+    user.app.action_post()
+    await user.settle()
+    assert isinstance(user.app.screen, PostScreen)
 
 
-async def test_choosing_the_other_unit_opens_program_parameters() -> None:
-    async with operator(plate(4, 0.9, 0.5)) as user:
+@pytest.mark.asyncio(loop_scope="module")
+async def test_choosing_the_other_unit_opens_program_parameters(user: Operator) -> None:
+    await user.begin(plate(4, 0.9, 0.5))
+    user.app.action_post()
+    await user.settle()
+    await user.press("m")
+    assert isinstance(user.app.screen, ParametersScreen)
+
+
+@pytest.mark.asyncio(loop_scope="module")
+async def test_the_unit_is_shown_large_on_a_new_program_and_on_post(user: Operator) -> None:
+    await user.begin(plate(40, 30, 5))
+    for unit, word in ((Unit.IN, "I N C H"), (Unit.MM, "M M")):
+        await user.begin(Program(unit=unit, blocks=(Block(),)))
+        units = user.screen.query_one("#units", Label)
+        assert word in str(units.content)
+        assert units.has_class("-new")
+        await user.begin(plate(40, 30, 5, unit))
+        assert word not in str(user.screen.query_one("#units", Label).content)
         user.app.action_post()
         await user.settle()
-        await user.press("m")
-        assert isinstance(user.app.screen, ParametersScreen)
-
-
-async def test_the_unit_is_shown_large_on_a_new_program_and_on_post() -> None:
-    async with operator(plate(40, 30, 5)) as user:
-        for unit, word in ((Unit.IN, "I N C H"), (Unit.MM, "M M")):
-            await user.begin(Program(unit=unit, blocks=(Block(),)))
-            units = user.screen.query_one("#units", Label)
-            assert word in str(units.content)
-            assert units.has_class("-new")
-            await user.begin(plate(40, 30, 5, unit))
-            assert word not in str(user.screen.query_one("#units", Label).content)
-            user.app.action_post()
-            await user.settle()
-            assert isinstance(user.app.screen, PostScreen), "an ordinary part is posted without a question"
-            assert str(user.screen.query_one(".head-unit", Label).content) == word
+        assert isinstance(user.app.screen, PostScreen), "an ordinary part is posted without a question"
+        assert str(user.screen.query_one(".head-unit", Label).content) == word
 
 
 def test_the_post_command_warns_about_the_unit(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
@@ -135,13 +140,14 @@ def test_a_refusal_names_its_block_and_a_clean_look_ahead(capsys: pytest.Capture
         assert f"Block 1: {GOUGED}" in err
 
 
-async def test_the_post_screen_names_the_clean_look_ahead() -> None:
-    async with operator("notch") as user:
-        user.app.action_post()
-        await user.settle()
-        await user.app.workers.wait_for_complete()
-        await user.settle()
-        assert f"Block 1: {GOUGED}" in str(user.screen.query_one("#post-findings", Static).content)
+@pytest.mark.asyncio(loop_scope="module")
+async def test_the_post_screen_names_the_clean_look_ahead(user: Operator) -> None:
+    await user.begin("notch")
+    user.app.action_post()
+    await user.settle()
+    await user.app.workers.wait_for_complete()
+    await user.settle()
+    assert f"Block 1: {GOUGED}" in str(user.screen.query_one("#post-findings", Static).content)
 
 
 def test_the_sheet_names_the_clean_look_ahead_and_asks_for_the_unit() -> None:

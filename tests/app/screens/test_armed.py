@@ -8,7 +8,9 @@ from app.screens import form_screen
 from app.screens.parameters import ParametersScreen
 from app.screens.tools import ToolsScreen
 from core.program.model import Number
-from tests.app.widget_pilot import operator
+from tests.app.widget_pilot import Operator
+
+pytestmark = pytest.mark.asyncio(loop_scope="module")
 
 
 @pytest.fixture(autouse=True)
@@ -17,54 +19,49 @@ def patience(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(form_screen, "SOFTKEY_WAIT", 60.0)
 
 
-async def test_esc_then_a_digit_presses_the_softkey() -> None:
-    async with operator("pocket") as user:
-        await user.press("tab", "escape")
-        assert user.prompt == "1 to 8 press the softkey now, as F1 to F8 do."
-        await user.press("4")
-        assert isinstance(user.screen, ParametersScreen)
-        await user.press("f8", "escape", "6")
-        assert isinstance(user.screen, ToolsScreen)
-        await user.press("f8", "6", "enter")
-        assert user.session.block.tool == Number(6.0), "a digit that pressed a softkey is not typed later"
+async def test_esc_then_a_digit_presses_the_softkey(user: Operator) -> None:
+    await user.press("tab", "escape")
+    assert user.prompt == "1 to 8 press the softkey now, as F1 to F8 do."
+    await user.press("4")
+    assert isinstance(user.screen, ParametersScreen)
+    await user.press("f8", "escape", "6")
+    assert isinstance(user.screen, ToolsScreen)
+    await user.press("f8", "6", "enter")
+    assert user.session.block.tool == Number(6.0), "a digit that pressed a softkey is not typed later"
 
 
-async def test_a_digit_after_another_key_is_typed() -> None:
-    async with operator("pocket") as user:
-        await user.press("tab", "7", "escape")
-        assert user.prompt == "The old number is back. Esc again, then 1 to 8, is a softkey."
-        await user.press("6", "enter")
-        assert user.session.block.tool == Number(6.0), "Esc that removes a half-typed number arms no softkey"
-        await user.press("escape", "tab", "4", "enter")
-        assert user.session.block.finish_tool == Number(4.0)
+async def test_a_digit_after_another_key_is_typed(user: Operator) -> None:
+    await user.press("tab", "7", "escape")
+    assert user.prompt == "The old number is back. Esc again, then 1 to 8, is a softkey."
+    await user.press("6", "enter")
+    assert user.session.block.tool == Number(6.0), "Esc that removes a half-typed number arms no softkey"
+    await user.press("escape", "tab", "4", "enter")
+    assert user.session.block.finish_tool == Number(4.0)
 
 
-async def test_a_digit_after_the_waiting_time_is_typed(monkeypatch: pytest.MonkeyPatch) -> None:
-    async with operator("pocket") as user:
-        monkeypatch.setattr(form_screen, "SOFTKEY_WAIT", 0.01)
-        await user.press("tab", "escape")
-        await user.pilot.pause(0.1)
-        await user.press("4", "enter")
-        assert user.session.block.tool == Number(4.0)
+async def test_a_digit_after_the_waiting_time_is_typed(user: Operator, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(form_screen, "SOFTKEY_WAIT", 0.01)
+    await user.press("tab", "escape")
+    await user.pilot.pause(0.1)
+    await user.press("4", "enter")
+    assert user.session.block.tool == Number(4.0)
 
 
-async def test_esc_after_an_unreadable_text_restores_the_old_value() -> None:
-    async with operator("pocket") as user:
-        before = user.session.block.x_start
-        user.screen.focus_field("x_start")  # type: ignore[attr-defined]
-        await user.press("1", "a", "5", "enter")
-        assert user.tag("x_start") == "ERR"
-        await user.press("escape")
-        assert user.session.block.x_start == before
-        assert user.at == "x_start"
-        assert user.prompt == "The old number is back. Esc again, then 1 to 8, is a softkey."
-        await user.press("3", "enter")
-        assert user.session.block.x_start == Number(3.0)
+async def test_esc_after_an_unreadable_text_restores_the_old_value(user: Operator) -> None:
+    before = user.session.block.x_start
+    user.screen.focus_field("x_start")  # type: ignore[attr-defined]
+    await user.press("1", "a", "5", "enter")
+    assert user.tag("x_start") == "ERR"
+    await user.press("escape")
+    assert user.session.block.x_start == before
+    assert user.at == "x_start"
+    assert user.prompt == "The old number is back. Esc again, then 1 to 8, is a softkey."
+    await user.press("3", "enter")
+    assert user.session.block.x_start == Number(3.0)
 
 
-async def test_esc_on_an_older_unreadable_text_keeps_the_later_edits() -> None:
-    async with operator("pocket") as user:
-        user.screen.focus_field("x_start")  # type: ignore[attr-defined]
-        await user.press("1", "a", "5", "enter", "tab", "3", "tab", "shift+tab", "shift+tab", "escape")
-        assert user.prompt == "1 to 8 press the softkey now, as F1 to F8 do."
-        assert user.session.block.y_start == Number(3.0)
+async def test_esc_on_an_older_unreadable_text_keeps_the_later_edits(user: Operator) -> None:
+    user.screen.focus_field("x_start")  # type: ignore[attr-defined]
+    await user.press("1", "a", "5", "enter", "tab", "3", "tab", "shift+tab", "shift+tab", "escape")
+    assert user.prompt == "1 to 8 press the softkey now, as F1 to F8 do."
+    assert user.session.block.y_start == Number(3.0)
