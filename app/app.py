@@ -27,7 +27,6 @@ from app.screens.base import HEIGHT_CLASSES, WIDTH_CLASSES, BaseScreen
 from app.screens.contour import ContourScreen
 from app.screens.opening import OpeningScreen
 from app.session.block_findings import Entry
-from app.session.derivation import Request
 from app.session.messages import Tone
 from app.session.posting import CENTER_PATH
 from app.session.session import Session
@@ -200,8 +199,8 @@ class CutcompApp(TransformActions):
             # all objects so far live until the program ends
             gc.freeze()
             gc.enable()
-        if not self._deriving:
-            self._derive(Request(self.session.program))
+        if self._deriving is None:
+            self._derive(self.session.program)
 
     # ---- keys and actions of all screens
 

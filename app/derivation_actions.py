@@ -1,22 +1,24 @@
-"""DerivationActions keeps the session, derives its program in workers, and updates the screens."""
+"""DerivationActions keeps the session, derives its program in workers, and shows their progress and results."""
 
 from __future__ import annotations
 
+from asyncio import to_thread
+from collections.abc import Callable
 from contextlib import suppress
-from typing import TYPE_CHECKING, cast
+from typing import TYPE_CHECKING, TypeVar, cast
 
 from textual import on, work
+from textual.app import App
 from textual.reactive import var
 from textual.timer import Timer
 from textual.worker import get_current_worker
 
 from app.screens.base import BaseScreen
 from app.screens.contour import ContourScreen
-from app.session.derivation import Request, advised, derived, lookahead_table
-from app.session.messages import ProgramDerived, RowsKnown, TableMade, Tone
+from app.session.derivation import advised, derived, lookahead_table
+from app.session.messages import RowsKnown, TableNoted, Tone
 from app.session.session import Session
-from app.session.work import Work
-from app.work_actions import WorkActions
+from app.session.work import SHOWN_AFTER, Work, while_wanted
 from core.pipeline.derived import DerivedBlock
 from core.program.model import Program
 from core.progress import Stopped
@@ -25,12 +27,14 @@ if TYPE_CHECKING:
     from app.nc_proof.screen import ProofScreen
     from core.advice.lookahead_table import Row, Table
 
+Result = TypeVar("Result")
+
 QUIET = 0.2
 """Seconds without a key before the search for advice starts, so that no key waits for it."""
 
 
-class DerivationActions(WorkActions):
-    """The App's part for what is derived from the program: paths and verdict, look-ahead table, advice.
+class DerivationActions(App[int]):
+    """The App's part for long work and for what is derived from the program: paths and verdict, table, advice.
 
     `session` holds all accepted edits.  `shown` is what verdict and drawings show: the same session, or the one
     that a half-typed number would make.
@@ -43,9 +47,10 @@ class DerivationActions(WorkActions):
     characters: var[str] = var("braille", init=False)
     """The character set of drawings and signs."""
 
-    _wanted: Request | None = None
-    _deriving: tuple[Request, Work] | None = None
-    _making_table: tuple[DerivedBlock, Work] | None = None
+    _works: tuple[Work, ...] = ()
+    _work_timer: Timer | None = None
+    _deriving: Program | None = None
+    """The program that is being derived."""
     stopped: Program | DerivedBlock | None = None
     """What Esc has stopped: the calculation of a program, or of a block's look-ahead table."""
     _advice_timer: Timer | None = None
@@ -57,62 +62,97 @@ class DerivationActions(WorkActions):
         if screens:
             screens[-1].say(text, tone)
 
+    # ---- long work, its progress and its end
+
+    def begin_work(self, on_stop: Callable[[], None]) -> Work:
+        """Register work that starts in a thread; `on_stop` is called if Esc stops it."""
+        work = Work(on_stop)
+        self._works = (*self._works, work)
+        if self._work_timer is None:
+            self._work_timer = self.set_interval(SHOWN_AFTER, self.show_work)
+        return work
+
+    def end_work(self, work: Work | None) -> None:
+        """End work that is done or no longer needed; a running thread stops at its next report.  Ignore None."""
+        if work is None:
+            return
+        work.stopped = True
+        self._works = tuple(each for each in self._works if each is not work)
+        if not self._works and self._work_timer is not None:
+            self._work_timer.stop()
+            self._work_timer = None
+            self.show_work()
+
+    @property
+    def longest_work(self) -> Work | None:
+        """The work that has run longest, if it has run long enough to be shown."""
+        return next((each for each in self._works if each.long), None)
+
+    def show_work(self) -> None:
+        """Show the progress of the longest work on the screen in front."""
+        for screen in self.screen_stack[-1:]:
+            if isinstance(screen, BaseScreen):
+                screen.show_work(self.longest_work)
+
+    def check_action(self, action: str, parameters: tuple[object, ...]) -> bool | None:
+        """Let Esc stop work only if some has run long enough; otherwise Esc goes to the screen."""
+        if action == "stop_work":
+            return any(each.stoppable for each in self._works)
+        return super().check_action(action, parameters)
+
+    def action_stop_work(self) -> None:
+        """Stop all work that has run long enough."""
+        for each in self._works:
+            if each.stoppable:
+                self.end_work(each)
+                each.on_stop()
+        self.show_work()
+
+    async def _in_thread(self, calculation: Callable[..., Result], *arguments: object) -> Result:
+        """Return the result of a calculation in a thread; raise Stopped if Esc stops it.
+
+        If the worker is canceled, the thread stops at its next report.
+        """
+        work = self.begin_work(self._calculation_stopped)
+        try:
+            return await to_thread(calculation, *arguments, work)
+        finally:
+            self.end_work(work)
+
+    # ---- the program, its table, and advice
+
     def try_out(self, program: Program | None) -> None:
         """Show what a half-typed number would do; None when nothing is half-typed."""
         self._advise_later()
         if program is not None:
-            self._derive(Request(program, trial=True))
+            self._derive(program)
             return
         if self.shown is not self.session:
             self.shown = self.session
-        if self._wanted is not None and self._wanted.trial:
-            self._wanted = None
-        if self._deriving is not None and self._deriving[0].trial:
-            self._deriving[1].stopped = True
-        if not self.session.derived_block.known and self._wanted is None:
-            self._derive(Request(self.session.program))
+        if self._deriving is not self.session.program:
+            self._deriving = None
+            self.workers.cancel_group(self, "derive")
+            if not all(block.known for block in self.session.derived.blocks):
+                self._derive(self.session.program)
 
-    def _derive(self, request: Request) -> None:
-        """Derive a program in a worker; only the newest waiting request is kept, and an outdated run is stopped."""
-        running = self._deriving
-        if running is None:
-            self._deriving = running = request, self.begin_work(self._calculation_stopped)
-            self._derive_in_thread(*running)
-        elif running[0].program is not request.program or running[1].stopped:
-            self._wanted = request
-            if running[0].trial or not request.trial:
-                running[1].stopped = True
+    def _derive(self, program: Program) -> None:
+        """Derive a program in place of any other."""
+        if self._deriving is not program:
+            self._deriving = program
+            self._derive_in_thread(program)
 
     # a worker with a program needs a description: else Textual formats the whole program before the next key
-    @work(thread=True, group="derive", description="derive")
-    def _derive_in_thread(self, request: Request, work: Work) -> None:
-        try:
-            result = derived(request, work)
-        except Stopped:
-            result = None
-        self.post_message(ProgramDerived(result, request.trial))
-
-    @on(ProgramDerived)
-    def _program_derived(self, message: ProgramDerived) -> None:
-        if not self.is_running:
-            # the screens are gone
-            return
-        stopped = False
-        if self._deriving is not None:
-            stopped = self._deriving[1].stopped
-            self.end_work(self._deriving[1])
-        self._deriving, wanted, self._wanted, result = None, self._wanted, None, None if stopped else message.derived
-        if result is not None and result.program is self.session.program:
-            self.session = self.session.knowing(result)
-            if wanted is None or not wanted.trial:
-                self.shown = self.session
+    @work(exclusive=True, group="derive", description="derive")
+    async def _derive_in_thread(self, program: Program) -> None:
+        with suppress(Stopped):
+            result = await self._in_thread(derived, program)
+            self._deriving = None
+            if program is self.session.program:
+                self.session = self.shown = self.session.knowing(result)
                 self._mention_unit()
-        elif result is not None and message.trial and wanted is None:
-            self.shown = self.session.trying(result)
-        if wanted is not None:
-            self._derive(wanted)
-        else:
-            self._make_table()
+                self._make_table()
+            else:
+                self.shown = self.session.trying(result)
 
     def _unit_question(self) -> str:
         """Return the question INCH or MM?; empty if the part's size is usual or unknown."""
@@ -129,52 +169,43 @@ class DerivationActions(WorkActions):
             self.say(f"{text} UNITS is in PROGRAM PARAMETERS.", Tone.WARNING)
 
     def _make_table(self) -> None:
-        """Make the look-ahead table of the block with the cursor in a worker, if it is not known yet."""
-        block, running = self.session.derived_block, self._making_table
-        if running is not None and running[0] is not block:
-            running[1].stopped = True
-        known = not block.known or self.stopped is block or (self.session.table and self.session.table[0] is block)
-        if running is not None or known:
+        """Make the look-ahead table of the block with the cursor, if it is not known yet."""
+        block, table = self.session.derived_block, self.session.table
+        if not block.known or self.stopped is block or (table and table[0] is block):
             self._advise_later()
-            return
-        self._making_table = block, self.begin_work(self._calculation_stopped)
-        self._make_table_in_thread(block, self.session.program, self._making_table[1])
+        else:
+            self._make_table_in_thread(block, self.session.program)
 
-    @work(thread=True, group="table", description="table")
-    def _make_table_in_thread(self, block: DerivedBlock, program: Program, work: Work) -> None:
+    @work(exclusive=True, group="table", description="table")
+    async def _make_table_in_thread(self, block: DerivedBlock, program: Program) -> None:
         def known(rows: tuple[Row, ...]) -> None:
-            if work.long:
-                self.post_message(RowsKnown(block, rows))
+            self.post_message(RowsKnown(block, rows))
 
-        try:
-            self.post_message(TableMade(block, lookahead_table(block, program, known, work)))
-        except Stopped:
-            self.post_message(TableMade(None, None))
+        with suppress(Stopped):
+            self._show_table(block, await self._in_thread(lookahead_table, block, program, known))
+            self._advise_later()
 
     @on(RowsKnown)
     def _rows_known(self, message: RowsKnown) -> None:
-        """Show the values that are judged while the others are still being calculated."""
-        if self.is_running and isinstance(self.screen, ContourScreen):
+        """Show the values that are judged while the others are still being calculated, if that takes long."""
+        if self.is_running and self.longest_work is not None and isinstance(self.screen, ContourScreen):
             self.screen.show_rows(message.block, message.rows)
 
-    @on(TableMade)
-    def _table_made(self, message: TableMade) -> None:
-        if not self.is_running:
-            return
-        if not message.advised and self._making_table is not None:
-            self.end_work(self._making_table[1])
-            self._making_table = None
-        if message.block is not None:
-            trial = self.shown is not self.session
-            self.session = self.session.with_table(message.block, message.table)
-            if not trial:
-                self.shown = self.session
-        if not message.advised:
-            self._make_table()
+    def _show_table(self, block: DerivedBlock, table: Table | None) -> None:
+        trial = self.shown is not self.session
+        self.session = self.session.with_table(block, table)
+        if not trial:
+            self.shown = self.session
+
+    @on(TableNoted)
+    def _table_noted(self, message: TableNoted) -> None:
+        if self.is_running:
+            self._show_table(message.block, message.table)
 
     def _calculation_stopped(self) -> None:
         """Note what Esc has stopped; an edit or CALCULATE starts it again."""
         block = self.session.derived_block
+        self._deriving = None
         self.stopped = block if block.known else self.session.program
         self.say("Stopped. Any edit calculates again, or Ctrl+K and CALCULATE.", Tone.WARNING)
 
@@ -214,7 +245,7 @@ class DerivationActions(WorkActions):
         if self.session.derived_block.known:
             self._make_table()
         else:
-            self._derive(Request(self.session.program))
+            self._derive(self.session.program)
 
     def _advise_later(self) -> None:
         """Stop the search for advice, and start it again after a pause."""
@@ -231,16 +262,11 @@ class DerivationActions(WorkActions):
 
     @work(thread=True, group="advice", exclusive=True, description="advice")
     def _advise_in_thread(self, block: DerivedBlock, program: Program, table: Table) -> None:
-        worker = get_current_worker()
-
-        def check(_: float) -> None:
-            if worker.is_cancelled:
-                raise Stopped
-
+        check = while_wanted(get_current_worker())
         with suppress(Stopped):
             for noted in advised(block, program, table, check):
                 check(1.0)
-                self.post_message(TableMade(block, noted, advised=True))
+                self.post_message(TableNoted(block, noted))
 
     def _uncover(self, depth: int) -> None:
         """Bring the screen at `depth` of the stack to the front; close those above it."""
@@ -255,7 +281,7 @@ class DerivationActions(WorkActions):
             self.quiet()
         self.session = self.shown = session
         if not same:
-            self._derive(Request(session.program))
+            self._derive(session.program)
 
     def quiet(self) -> None:
         """Show the prompt again on every screen."""

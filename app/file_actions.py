@@ -36,7 +36,6 @@ from app.documents.service import DocumentService, Notice, Offer, Opened, Saved,
 from app.documents.settings import Settings, SettingsFile
 from app.screens.base import BaseScreen
 from app.screens.dialogs import Phrase, Question
-from app.session.derivation import Request
 from app.session.messages import Tone
 from app.session.session import Session
 from core.program.edit import SEGMENT_FIELD, Edited, FormPlace, Refused
@@ -143,7 +142,9 @@ class FileActions(DerivationActions):
         self.shown = session
         self._advise_later()
         if session.program is not before.program:
-            self._derive(Request(session.program))
+            self._derive(session.program)
+        elif session.place.block != before.place.block:
+            self._make_table()
 
     def drop_empty_segment(self) -> None:
         """Remove the new segment with the cursor if nothing was typed in it."""

@@ -16,7 +16,7 @@ from textual.containers import Horizontal, Vertical
 from textual.content import Content
 from textual.widgets import Label, OptionList, Static
 from textual.widgets.option_list import Option
-from textual.worker import Worker, get_current_worker
+from textual.worker import get_current_worker
 
 from app.documents.document import NcDocument
 from app.documents.nc_text import NcText
@@ -41,7 +41,7 @@ from app.screens.base import BaseScreen
 from app.screens.dialogs import ChooseLine, Phrase
 from app.session.messages import Sentence, Tone
 from app.session.words import counted
-from app.session.work import Work
+from app.session.work import Work, while_wanted
 from app.widgets.drawing import Drawing
 from app.widgets.option_rows import OptionRows, control_rows
 from app.widgets.plain import PlainLabel, PlainText
@@ -52,7 +52,7 @@ from core.controls.control_names import display_name
 from core.controls.control_tools import CutterTool, ToolId, ToolTable, commented_size, tool_id
 from core.controls.registry import choices
 from core.finding import Finding, Severity
-from core.progress import Progress, Stopped, part
+from core.progress import Stopped, part
 from core.units import Kind, Unit, Unreadable, parse, sentence
 
 if TYPE_CHECKING:
@@ -321,7 +321,7 @@ class ProofScreen(BaseScreen):
             judged = await to_thread(judge, result, part(work, RUN_SHARE, 1.0))
             self._ran(judged)
             # the progress shown ends with the verdict
-            fitted = await to_thread(with_largest_tool, judged, _while_wanted(get_current_worker()))
+            fitted = await to_thread(with_largest_tool, judged, while_wanted(get_current_worker()))
             if fitted.answer.fits is not None:
                 self._ran(fitted)
 
@@ -700,13 +700,3 @@ def read_tool(text: str, tool: ToolId, unit: Unit) -> CutterTool | ToolId | Unre
         return Unreadable(f"{tool} is the number of the tool. For a diameter of {tool}, type {tool}={tool}.")
     value = parse(size, Kind.LENGTH, unit)
     return value if isinstance(value, Unreadable) else CutterTool(tool, value, unit=unit)
-
-
-def _while_wanted(worker: Worker[object]) -> Progress:
-    """Return a progress callback that raises Stopped once the worker is canceled."""
-
-    def check(_: float) -> None:
-        if worker.is_cancelled:
-            raise Stopped
-
-    return check

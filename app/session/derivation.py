@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from typing import TYPE_CHECKING
 
 from app.session.words import segment_numbers
@@ -15,19 +15,11 @@ if TYPE_CHECKING:
     from core.advice.lookahead_table import Row, Table
 
 
-@dataclass(frozen=True, eq=False, slots=True)
-class Request:
-    """A program to derive; `trial` if it comes from a half-typed number."""
-
-    program: Program
-    trial: bool = False
-
-
-def derived(request: Request, progress: Progress = silent) -> Derived:
+def derived(program: Program, progress: Progress = silent) -> Derived:
     """Derive a program; this imports the numeric libraries, which the first paint must not load."""
     from core.pipeline.derive import derive
 
-    return derive(request.program, progress)
+    return derive(program, progress)
 
 
 def lookahead_table(

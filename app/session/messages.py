@@ -10,7 +10,7 @@ from textual.message import Message
 
 if TYPE_CHECKING:
     from core.advice.lookahead_table import Row, Table
-    from core.pipeline.derived import Derived, DerivedBlock
+    from core.pipeline.derived import DerivedBlock
 
 
 class Tone(StrEnum):
@@ -29,11 +29,11 @@ class Sentence(NamedTuple):
 
 
 @dataclass
-class ProgramDerived(Message):
-    """A worker has derived a program, or None if stopped; `trial` if it came from a half-typed number."""
+class TableNoted(Message):
+    """A worker has added notes to a block's look-ahead table."""
 
-    derived: Derived | None
-    trial: bool
+    block: DerivedBlock
+    table: Table
 
 
 @dataclass
@@ -42,12 +42,3 @@ class RowsKnown(Message):
 
     block: DerivedBlock
     rows: tuple[Row, ...]
-
-
-@dataclass
-class TableMade(Message):
-    """A worker has made a block's look-ahead table, or added notes (`advised`); `block` is None if it was stopped."""
-
-    block: DerivedBlock | None
-    table: Table | None
-    advised: bool = False

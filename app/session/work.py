@@ -7,7 +7,9 @@ from dataclasses import dataclass, field
 from time import monotonic
 from typing import Final
 
-from core.progress import Stopped
+from textual.worker import Worker
+
+from core.progress import Progress, Stopped
 
 SHOWN_AFTER: Final = 0.3
 """Seconds after which the progress of work is shown."""
@@ -48,3 +50,13 @@ class Work:
         """The progress, and whether Esc stops the work."""
         stops = ", Esc stops" if self.stoppable else ""
         return f"working {round(100 * min(self.done, 1.0))} %{stops}"
+
+
+def while_wanted(worker: Worker[object]) -> Progress:
+    """Return a progress callback that raises Stopped once the worker is canceled."""
+
+    def check(_: float) -> None:
+        if worker.is_cancelled:
+            raise Stopped
+
+    return check

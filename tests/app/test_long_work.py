@@ -20,6 +20,7 @@ from app.session import work
 from app.widgets.progress import Progress
 from app.widgets.prompt import Prompt
 from app.widgets.status import Status
+from core.program.edit import FormPlace
 from core.progress import Stopped
 from tests.app.widget_pilot import Operator, operator
 
@@ -29,7 +30,7 @@ def at_once(monkeypatch):
     """Work counts as long as soon as it starts."""
     monkeypatch.setattr(work, "SHOWN_AFTER", 0.0)
     monkeypatch.setattr(work, "STOPS_AFTER", 0.0)
-    monkeypatch.setattr("app.work_actions.SHOWN_AFTER", 0.02)
+    monkeypatch.setattr("app.derivation_actions.SHOWN_AFTER", 0.02)
 
 
 class Slow:
@@ -133,6 +134,14 @@ async def test_the_strip_shows_the_values_that_are_judged_while_the_others_are_n
         slow.go.set()
 
 
+async def test_a_block_that_the_cursor_goes_to_gets_its_look_ahead_table():
+    async with operator("flange") as user:
+        for block in (1, 2):
+            user.app.move(FormPlace(block))
+            await user.settle()
+            assert user.session.lookahead_table is not None, block
+
+
 @asynccontextmanager
 async def posting(monkeypatch):
     """An operator at POST NC while the text is being made and is at 40 %."""
@@ -153,9 +162,9 @@ async def test_escape_stops_posting_and_enter_makes_the_text_again(monkeypatch):
         assert "Stopped. Enter makes the NC text." in str(user.screen.query_one("#post-findings").render())
         slow.go.set()
         await user.press("enter")
-        await user.pilot.pause(0.2)
         assert isinstance(user.screen, post_module.PostScreen)
-        assert user.screen.made is not None
+        while user.screen.made is None:
+            await user.pilot.pause(0.01)
         assert "Free:" in status(user)
 
 

@@ -14,14 +14,14 @@ from app.screens.lookahead import LookaheadScreen
 from app.screens.palette import Palette
 from app.screens.program import depths_kept
 from app.session.block_findings import block_findings
-from app.session.derivation import Request, derived
+from app.session.derivation import derived
 from app.session.work import Work
 from app.widgets.field import ChoiceField
 from app.widgets.findings_list import FindingsList
 from app.widgets.verdict import Verdict
 from core.pipeline.derived import Derived
 from core.program.edit import FormPlace
-from core.program.model import LineSegment, Number, Unread
+from core.program.model import LineSegment, Number, Program, Unread
 from tests.app.widget_pilot import Operator, operator
 
 pytestmark = pytest.mark.asyncio(loop_scope="module")
@@ -226,9 +226,9 @@ async def test_the_preview_of_a_half_typed_number_ends_with_the_typing(user: Ope
     """The derivation of the half-typed number ends only after the typing does."""
     may_end = Event()
 
-    def slow(request: Request, _: Work) -> Derived:
+    def slow(program: Program, _: Work) -> Derived:
         may_end.wait(20)
-        return derived(request)
+        return derived(program)
 
     await user.press("pagedown", "tab")
     before = user.value("length")
