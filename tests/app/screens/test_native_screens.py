@@ -3,10 +3,12 @@
 from __future__ import annotations
 
 import gc
+from contextlib import suppress
 from dataclasses import replace
 from weakref import ref
 
 from textual.widgets import DataTable, Input, OptionList, Static
+from textual.worker import WorkerCancelled
 
 from app.documents.files import load
 from app.documents.programs import example
@@ -35,7 +37,9 @@ async def run(user: Operator, action: str) -> None:
 async def everything(user: Operator) -> None:
     """Wait for every worker, including those that draw and post."""
     for _ in range(2):
-        await user.app.workers.wait_for_complete()
+        # one is canceled when another replaces it
+        with suppress(WorkerCancelled):
+            await user.app.workers.wait_for_complete()
         await user.settle()
 
 
