@@ -178,7 +178,7 @@ async def test_a_larger_terminal_shows_the_segment_list_with_its_rows(user: Oper
 
 
 async def test_the_findings_list_explains_its_keys_and_shows_each_finding_once(user: Operator):
-    await user.restart("notch")
+    await user.begin("notch")
     await user.press("f10")
     assert user.prompt.startswith("Up and down show the places of the findings.")
     shown = "".join(str(option.prompt) for option in user.screen.query_one("#findings", OptionList).options)
@@ -186,7 +186,7 @@ async def test_the_findings_list_explains_its_keys_and_shows_each_finding_once(u
 
 
 async def test_closing_a_list_returns_the_cursor_to_its_field(user: Operator):
-    await user.restart("notch")
+    await user.begin("notch")
     await user.press(*["down"] * 3)
     field = user.at
     for key in ("f9", "f10"):
@@ -205,7 +205,7 @@ async def test_closing_a_list_returns_the_cursor_to_its_field(user: Operator):
 
 
 async def test_the_letters_a_message_offers_work(user: Operator):
-    await user.restart("notch")
+    await user.begin("notch")
     await user.press("ctrl+end", "pagedown", "a")
     assert user.at == "direction"
     await user.press("pagedown")
@@ -300,7 +300,7 @@ async def test_edits_on_another_screen_show_in_verdict_and_findings(user: Operat
 
 
 async def test_a_typed_look_ahead_is_taken_before_the_table_opens(user: Operator):
-    await user.restart("notch")
+    await user.begin("notch")
     await user.press(*("tab",) * 11, "'12", "space")
     assert isinstance(user.app.screen, LookaheadScreen)
     await user.press("home", "enter")
@@ -311,7 +311,7 @@ async def test_a_typed_look_ahead_is_taken_before_the_table_opens(user: Operator
 
 
 async def test_repeating_a_segment_removes_the_undo_message(user: Operator):
-    await user.restart("notch")
+    await user.begin("notch")
     for keys in ((), ("ctrl+z",)):
         await user.press(*keys)
         await user.app.run_action("app.repeat_shifted")
