@@ -183,6 +183,7 @@ async def test_the_findings_list_explains_its_keys_and_shows_each_finding_once(u
     assert user.prompt.startswith("Up and down show the places of the findings.")
     shown = "".join(str(option.prompt) for option in user.screen.query_one("#findings", OptionList).options)
     assert shown.count("Corner too tight") == 1
+    await user.press("escape")
 
 
 async def test_closing_a_list_returns_the_cursor_to_its_field(user: Operator):
