@@ -5,16 +5,18 @@ from __future__ import annotations
 from abc import abstractmethod
 from typing import ClassVar, Final
 
-from textual import work
+from textual import on, work
 from textual.app import ComposeResult
 from textual.binding import Binding, BindingType
 from textual.containers import Horizontal, Vertical
+from textual.events import DescendantFocus
+from textual.widgets import Select
 
 from app.documents.questions import Answer
 from app.screens.dialogs import Question
 from app.screens.form_screen import FormScreen
 from app.screens.values import cell_of
-from app.session.messages import Sentence
+from app.session.messages import Sentence, Tone
 from app.session.session import Session
 from app.widgets.field import Cell, ChoiceField, Form
 from app.widgets.plain import PlainLabel
@@ -95,7 +97,7 @@ class SettingsForm(FormScreen):
 
 
 class ParametersScreen(SettingsForm):
-    """The parameters of the program; a change of unit must be confirmed."""
+    """The parameters of the program; a change of unit must be confirmed once the field is taken."""
 
     NAME: ClassVar[str] = "PROGRAM PARAMETERS"
     FIELDS: ClassVar[tuple[Field, ...]] = (UNITS, *PARAMETERS)
@@ -115,22 +117,64 @@ class ParametersScreen(SettingsForm):
         return set_parameter(program, field.name, read_typed(text, field, program.unit))
 
     def pick(self, field: Field, text: str) -> None:
-        """Take a choice; another unit only after a question, since it converts the whole program."""
-        if field is UNITS:
-            self._convert(Unit(text))
-        else:
+        """Take PATH at once; UNITS converts the whole program, so it waits until the field is taken."""
+        if field is not UNITS:
             super().pick(field, text)
+
+    @property
+    def _new_unit(self) -> Unit | None:
+        """The unit that UNITS shows, if it is not the program's."""
+        widget = self.widget(UNITS.name)
+        text = widget.value if isinstance(widget, ChoiceField) else None
+        return None if text is None or text == self.current_session.program.unit else Unit(str(text))
+
+    @on(Select.Changed)
+    def _unit_picked(self) -> None:
+        self.refresh_frame()
+
+    def prompt_text(self) -> Sentence:
+        """Return the prompt; while UNITS waits, what Enter does."""
+        unit = self._new_unit
+        if unit is None or self.current_field is not UNITS:
+            return super().prompt_text()
+        return Sentence(f"Enter converts every typed length and feed to {unit}.", Tone.WARNING)
+
+    def take(self) -> bool:
+        """Take the field; a new unit is converted after a question."""
+        unit = self._new_unit
+        if unit is None:
+            return super().take()
+        self._convert(unit)
+        return False
 
     @work(exclusive=True, group="question")
     async def _convert(self, unit: Unit) -> None:
-        program, widget = self.current_session.program, self.widget(UNITS.name)
-        lines = [f"Convert every typed length and feed from {program.unit} to {unit}?"]
+        session = self.current_session
+        lines = [f"Convert every typed length and feed from {session.program.unit} to {unit}?"]
         answer = await self.app.push_screen_wait(Question("UNITS", lines, [Answer("CONVERT")], "GO BACK"))
         if answer == "CONVERT":
-            self.host.apply(set_unit(program, unit), f"UNITS {unit}")
-        elif isinstance(widget, ChoiceField):
-            widget.show(str(program.unit))
-            self.say(f"UNITS stays {program.unit}.")
+            self.host.apply(set_unit(session.program, unit), f"UNITS {unit}")
+        else:
+            self._keep_unit()
+
+    def _keep_unit(self) -> None:
+        """Show the program's unit again, and say so."""
+        unit, widget = self.current_session.program.unit, self.widget(UNITS.name)
+        if isinstance(widget, ChoiceField):
+            widget.show(str(unit))
+            self.say(f"UNITS stays {unit}.")
+
+    @on(DescendantFocus)
+    def _left_by_click(self) -> None:
+        if self._new_unit is not None and self.current is not None and self.current.name != UNITS.name:
+            self._keep_unit()
+
+    def action_leave(self) -> None:
+        """Keep the unit; if none waits, restore the old value or close the screen."""
+        if self._new_unit is not None:
+            self._keep_unit()
+        else:
+            super().action_leave()
 
 
 class PartSetupScreen(SettingsForm):

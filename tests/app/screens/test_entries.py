@@ -134,18 +134,26 @@ async def test_the_cursor_can_leave_fields_whose_text_has_surrounding_blanks(use
         assert user.session.history.undo_count == 0
 
 
-async def test_a_unit_is_typed_whole_and_opens_its_question_once(user: Operator):
+async def test_a_unit_is_typed_whole_and_enter_opens_its_question_once(user: Operator):
     await user.press("f4", "'mm")
+    assert (user.at, user.value("unit"), user.session.program.unit) == ("unit", "MM", Unit.IN)
+    assert user.prompt == "Enter converts every typed length and feed to MM."
+    await user.press("enter")
     assert isinstance(user.app.screen, Question)
-    assert user.session.program.unit is Unit.IN
     await user.press("enter")
     assert (user.at, user.value("unit"), user.prompt) == ("unit", "IN", "UNITS stays IN.")
     await user.press("m", "escape")
     assert (user.at, user.value("unit"), user.prompt) == ("unit", "IN", "UNITS stays IN.")
-    await user.press("left", "escape", "up", "down")
-    assert (user.at, user.value("unit")) == ("unit", "IN")
+    await user.press("m", "left")
     assert user.prompt.startswith("Unit of the program.")
-    await user.press("'mm", "c")
+    await user.press("'mm", "enter", "c")
     assert (user.at, user.value("unit"), user.session.program.unit) == ("unit", "MM", Unit.MM)
     await user.press("enter")
     assert user.at == "blend_offset"
+
+
+async def test_a_unit_left_by_a_click_stays(user: Operator):
+    await user.press("f4", "m")
+    await user.pilot.click(user.row("finish_xy"), offset=(20, 0))
+    await user.settle()
+    assert (user.at, user.value("unit"), user.prompt) == ("finish_xy", "IN", "UNITS stays IN.")

@@ -92,7 +92,7 @@ async def test_changing_the_unit_asks_first_and_converts_the_lengths():
         await user.press("right", "escape")
         await everything(user)
         assert (user.session.program.unit, user.value("unit")) == (Unit.IN, "IN"), "refused"
-        await user.press("right", "c")
+        await user.press("right", "enter", "c")
         await everything(user)
         assert user.session.program.unit is Unit.MM
         assert user.session.block.x_start == Number(50.8)
