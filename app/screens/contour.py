@@ -274,6 +274,8 @@ class ContourScreen(FormScreen):
     def show_work(self, work: Work | None) -> None:
         """Show the progress in the verdict's title too; the last verdict stays until the work is done."""
         super().show_work(work)
+        if not self.stands:
+            return
         verdict, shown = self.query_one(Verdict), self.host.shown
         if verdict.case is not None and not shown.derived_block.known:
             stopped = self.host.stopped is shown.program
