@@ -7,7 +7,6 @@ from textual.widgets import OptionList
 from app.screens.contour import ContourScreen
 from app.widgets.about import About
 from tests.app.screens.test_list_keys import run
-from tests.app.screens.test_native_screens import everything
 from tests.app.widget_pilot import Operator, operator
 
 
@@ -18,7 +17,7 @@ def lines(user: Operator) -> list[str]:
 async def test_program_says_what_the_block_is_and_lists_its_findings_where_there_is_room():
     async with operator(size=(200, 50)) as user:
         await run(user, "app.program")
-        await everything(user)
+        await user.finish()
         assert lines(user)[:4] == [
             "BLOCK 1   MILL CONTOUR  LEFT  CAL 8",
             "CONTOUR   11 segments, closed, 15.4560 long",
@@ -39,7 +38,7 @@ async def test_home_says_what_the_program_is():
     async with operator(size=(132, 43)) as user:
         await run(user, "app.home")
         await user.press("p", "o")
-        await everything(user)
+        await user.finish()
         assert lines(user)[1] == "CONTOUR   11 segments, closed, 15.4560 long"
 
 

@@ -186,23 +186,23 @@ async def test_the_findings_list_explains_its_keys_and_shows_each_finding_once(u
     await user.press("escape")
 
 
-async def test_closing_a_list_returns_the_cursor_to_its_field(user: Operator):
-    await user.begin("notch")
-    await user.press(*["down"] * 3)
-    field = user.at
-    for key in ("f9", "f10"):
-        # the key of the findings first makes their list taller
-        again = (key,) if key == "f9" else (key, key)
-        for close in (again, ("escape",)):
-            await user.press(key)
-            await user.press(*close)
-            assert user.at == field, (key, close)
-            await user.press("3")
-            assert isinstance(user.screen, ContourScreen)
-            assert (user.at, user.screen.half_typed) == (field, True), (key, close)
-            await user.press("escape")
-    await user.press("f9", "down", "f9")
-    assert user.at == "segment"
+async def test_closing_a_list_returns_the_cursor_to_its_field():
+    async with operator("notch") as user:
+        await user.press(*["down"] * 3)
+        field = user.at
+        for key in ("f9", "f10"):
+            # the key of the findings first makes their list taller
+            again = (key,) if key == "f9" else (key, key)
+            for close in (again, ("escape",)):
+                await user.press(key)
+                await user.press(*close)
+                assert user.at == field, (key, close)
+                await user.press("3")
+                assert isinstance(user.screen, ContourScreen)
+                assert (user.at, user.screen.half_typed) == (field, True), (key, close)
+                await user.press("escape")
+        await user.press("f9", "down", "f9")
+        assert user.at == "segment"
 
 
 async def test_the_letters_a_message_offers_work(user: Operator):
