@@ -361,14 +361,12 @@ def _judge_part(
     accepted = _accepted_difference(run, whole, center)
     closed = frozenset(line for rows in contours if not contours[rows] for line in whole.numbers[slice(*rows)].tolist())
 
-    rows, cut_away = list(contours), tuple[StandingWall, ...]()
-
-    def judged(walls: Sequence[StandingWall]) -> list[Judged]:
-        alone = len(walls) + len(cut_away) == 1
+    def judged(walls: Sequence[StandingWall], *, alone: bool) -> list[Judged]:
         return [_judge_wall(run, stretch, wall, center, accepted, closed, alone=alone) for wall in walls]
 
+    rows, cut_away = list(contours), tuple[StandingWall, ...]()
     spans, walls = rows, _walls(whole, rows)
-    results = judged(walls)
+    results = judged(walls, alone=len(walls) == 1)
     if any(result.verdict.gouges for result in results):
         spans = [between_lead_arcs(whole, each, stretch, cut_short=run.stops_within(stretch)) for each in rows]
         passes = closed_passes_of(whole, spans, _heights(stretch, whole))
@@ -376,9 +374,11 @@ def _judge_part(
         cut_away = tuple(wall for wall in standing if wall.cut_away_by)
         if cut_away:
             open_walls = _walls(whole, [span for span in spans if not is_closed(whole, span)])
-            results = judged([*(wall for wall in standing if wall.stands), *open_walls])
+            # two passes or more: one cuts another one away
+            results = judged([*(wall for wall in standing if wall.stands), *open_walls], alone=False)
         elif spans != rows:
-            results = judged(_walls(whole, spans))
+            walls = _walls(whole, spans)
+            results = judged(walls, alone=len(walls) == 1)
     opened = [lines for lines in contours.values() if lines]
     results = [
         replace(result, open_lines=next((lines for lines in opened if result.lines <= lines), frozenset()))
