@@ -17,6 +17,7 @@ from core.units import (
     Unreadable,
     convert,
     from_mm,
+    located_sentence,
     parse,
     printable,
     sentence,
@@ -249,3 +250,18 @@ def test_a_single_comma_is_a_decimal_point(text, unit, value):
 )
 def test_a_comma_that_may_be_a_thousands_comma_is_refused(text, unit, reason):
     assert parse(text, Kind.LENGTH, unit) == Unreadable(reason)
+
+
+@pytest.mark.parametrize(
+    ("block", "segment", "where"),
+    [
+        (None, None, ""),
+        (2, None, "Block 2: "),
+        (None, 3, "Segment 3: "),
+        (2, 0, "Block 2, START: "),
+        (2, 3, "Block 2, segment 3: "),
+    ],
+)
+def test_a_sentence_begins_with_the_place_that_is_known(block, segment, where):
+    finding = Finding("CODE", Severity.ERROR, "Off by {0}.", segment, block=block, lengths=(25.4,))
+    assert located_sentence(finding, IN) == f"{where}Off by 1.0000."

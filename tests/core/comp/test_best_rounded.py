@@ -25,8 +25,11 @@ def nearly_tangent(miss: float) -> Path:
 
 
 def assert_clean(contour: Path, side: Side, radius: float, best: BestPath) -> None:
-    """All loops are closed, and the judge finds nothing wrong with them."""
+    """All loops are closed and follow the contour's order, and the judge finds nothing wrong with them."""
     assert all(best.closed)
+    for loop in best.loops:
+        numbers = [*loop.numbers, loop.numbers[0]]
+        assert sum(following < number for number, following in pairwise(numbers)) <= 1, "past START once"
     assert "BEST_BROKEN" not in {finding.code for finding in best.findings}
     verdict = judge_together(contour, side, radius, best.loops)
     assert (verdict.judged, verdict.gouges, verdict.wrong_side) == (True, (), ())
