@@ -29,8 +29,8 @@ LONGEST: Final = 120.0
 """Seconds until a program that still works is given up: a busy machine may be slow."""
 PASSING: Final = re.compile("[▌|] .*(?:Saved|Deleted|Posted|Written)|press the softkey now|no value is clean")
 """A toast, and what Esc says of the digits, go by themselves after a few seconds; why no value is clean comes later."""
-MOST_WAITS: Final = 20
-"""Times that the program is waited for while something stands that goes by itself."""
+LONGEST_PASSING: Final = 20.0
+"""Seconds that the program is waited for while something stands that goes by itself."""
 FOLDER: Final = re.compile(r"/tmp/[a-z0-9_]+(/tmp[a-z0-9_]+)?")
 VARYING: Final = re.compile(r"\d{4}-\d\d-\d\d-\d{6}|\d{4}-\d\d-\d\d|\d\d:\d\d|Free: +\d+ [GM]B")
 """What the clock and the disk make different from run to run."""
@@ -59,12 +59,13 @@ def masked(lines: Iterable[str]) -> tuple[str, ...]:
 
 def settle(terminal: Terminal) -> None:
     """Until the program is at rest and nothing stands that goes by itself."""
-    for _ in range(MOST_WAITS):
+    deadline = time.monotonic() + LONGEST_PASSING
+    passing = True
+    while passing and time.monotonic() < deadline:
         for _, _, data in until_rest(terminal, LONGEST):
             terminal.seen += data
             terminal.stream.feed(data)
-        if not PASSING.search(terminal.text):
-            return
+        passing = PASSING.search(terminal.text) is not None
 
 
 def picture(terminal: Terminal) -> Picture:
