@@ -12,7 +12,6 @@ from enum import Enum, StrEnum, auto
 from fractions import Fraction
 from functools import lru_cache
 from math import isfinite
-from types import MappingProxyType
 from typing import Final, assert_never
 
 from core.arithmetic import CannotReadError, evaluate
@@ -52,11 +51,11 @@ class Unreadable:
     reason: str
 
 
-MM_PER: Final[Mapping[Unit, Fraction]] = MappingProxyType({Unit.IN: Fraction(127, 5), Unit.MM: Fraction(1)})
+MM_PER: Final[Mapping[Unit, Fraction]] = {Unit.IN: Fraction(127, 5), Unit.MM: Fraction(1)}
 """Millimeters in one unit, exactly."""
 
 
-KEPT_DECIMALS: Final[Mapping[Unit, int]] = MappingProxyType({Unit.IN: 10, Unit.MM: 8})
+KEPT_DECIMALS: Final[Mapping[Unit, int]] = {Unit.IN: 10, Unit.MM: 8}
 """Decimals that a conversion keeps: more than a drawing has."""
 
 MOST_DECIMALS: Final = 20
@@ -237,12 +236,10 @@ def _scales(kind: Kind, unit: Unit) -> Mapping[str, Fraction]:
             assert_never(kind)
 
 
-_EXPECTED: Final[Mapping[Kind, str]] = MappingProxyType(
-    {
-        Kind.LENGTH: "type a number such as 2.5, 1 1/2, 2.5-.125 or 12.7mm",
-        Kind.FEED: "type a number such as 20 or 500mm",
-        Kind.ANGLE: "type degrees such as 22.5",
-        Kind.COUNT: "type a whole number",
-        Kind.PERCENT: "type a percentage such as 50",
-    }
-)
+_EXPECTED: Final[Mapping[Kind, str]] = {
+    Kind.LENGTH: "type a number such as 2.5, 1 1/2, 2.5-.125 or 12.7mm",
+    Kind.FEED: "type a number such as 20 or 500mm",
+    Kind.ANGLE: "type degrees such as 22.5",
+    Kind.COUNT: "type a whole number",
+    Kind.PERCENT: "type a percentage such as 50",
+}

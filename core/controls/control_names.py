@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import dataclass, field
-from types import MappingProxyType
 from typing import Final
 
 
@@ -31,44 +30,42 @@ class ControlChoice:
 _SHARP: Final = {"a": "type A, corners by lines", "b": "type B, corners by lines"}
 _FANUC: Final = _SHARP | {"c": "type C, G41 moves at once"}
 
-CONTROL_NAMES: Final[Mapping[str, ControlName]] = MappingProxyType(
-    {
-        "fanuc": ControlName(
-            "fanuc",
-            "Fanuc mill",
-            "0i, 16-21, 30i-32i",
-            _FANUC | {f"{kind}-arc": f"type {kind.upper()}, sharp corners by arcs" for kind in "abc"},
-        ),
-        "haas": ControlName(
-            "haas",
-            "Haas mill",
-            "as Fanuc, own alarms",
-            {
-                "a": "settings 43 A, 58 FANUC",
-                "b": "settings 43 B, 58 FANUC",
-                "a-yasnac": "settings 43 A, 58 YASNAC",
-                "b-yasnac": "settings 43 B, 58 YASNAC",
-            },
-        ),
-        "linuxcnc": ControlName("linuxcnc", "LinuxCNC", "2.4 and later, as its own interpreter runs it"),
-        "klartext": ControlName("heidenhain", "HEIDENHAIN Klartext", "TNC conversational with RL, RR, APPR and DEP"),
-        "rosettacnc": ControlName(
-            "rosettacnc",
-            "RosettaCNC",
-            "G41 and G41.1",
-            {"nist": "entry NIST", "easy": "entry Easy Lead-In", "normal": "entry Normal"},
-        ),
-        "nine-series": ControlName(
-            "allen-bradley",
-            "Allen-Bradley 9/Series",
-            "Rockwell 8520 mill",
-            _SHARP
-            | {f"{kind}-g39": f"type {kind.upper()}, starts in G39" for kind in "ab"}
-            | {f"{kind}-g39.1": f"type {kind.upper()}, starts in G39.1" for kind in "ab"},
-        ),
-        "threeblock": ControlName("three-block", "Three-block control", "older US mill: radius with T, reads 3 blocks"),
-    }
-)
+CONTROL_NAMES: Final[Mapping[str, ControlName]] = {
+    "fanuc": ControlName(
+        "fanuc",
+        "Fanuc mill",
+        "0i, 16-21, 30i-32i",
+        _FANUC | {f"{kind}-arc": f"type {kind.upper()}, sharp corners by arcs" for kind in "abc"},
+    ),
+    "haas": ControlName(
+        "haas",
+        "Haas mill",
+        "as Fanuc, own alarms",
+        {
+            "a": "settings 43 A, 58 FANUC",
+            "b": "settings 43 B, 58 FANUC",
+            "a-yasnac": "settings 43 A, 58 YASNAC",
+            "b-yasnac": "settings 43 B, 58 YASNAC",
+        },
+    ),
+    "linuxcnc": ControlName("linuxcnc", "LinuxCNC", "2.4 and later, as its own interpreter runs it"),
+    "klartext": ControlName("heidenhain", "HEIDENHAIN Klartext", "TNC conversational with RL, RR, APPR and DEP"),
+    "rosettacnc": ControlName(
+        "rosettacnc",
+        "RosettaCNC",
+        "G41 and G41.1",
+        {"nist": "entry NIST", "easy": "entry Easy Lead-In", "normal": "entry Normal"},
+    ),
+    "nine-series": ControlName(
+        "allen-bradley",
+        "Allen-Bradley 9/Series",
+        "Rockwell 8520 mill",
+        _SHARP
+        | {f"{kind}-g39": f"type {kind.upper()}, starts in G39" for kind in "ab"}
+        | {f"{kind}-g39.1": f"type {kind.upper()}, starts in G39.1" for kind in "ab"},
+    ),
+    "threeblock": ControlName("three-block", "Three-block control", "older US mill: radius with T, reads 3 blocks"),
+}
 """The names, by the name inside cutcomp, in the order that lists show."""
 
 _INSIDE: Final = {entry.name: inside for inside, entry in CONTROL_NAMES.items()}

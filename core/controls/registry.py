@@ -8,7 +8,6 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import dataclass, replace
-from types import MappingProxyType
 from typing import Final
 
 import numpy as np
@@ -60,17 +59,15 @@ class RegisteredControl:
     """The variants that a comparison shows."""
 
 
-CONTROLS: Final[Mapping[str, RegisteredControl]] = MappingProxyType(
-    {
-        "threeblock": RegisteredControl(threeblock.DIALECT, {"": threeblock.ThreeBlock}),
-        "rosettacnc": RegisteredControl(rosettacnc.DIALECT, rosettacnc.VARIANTS, tuple(rosettacnc.VARIANTS)),
-        "nine-series": RegisteredControl(nine_series.DIALECT, nine_series.VARIANTS, ("a", "b")),
-        "fanuc": RegisteredControl(fanuc.DIALECT, fanuc.VARIANTS, ("a", "b")),
-        "haas": RegisteredControl(haas.DIALECT, haas.VARIANTS, ("a",)),
-        "klartext": RegisteredControl(None, {"": None}),
-        "linuxcnc": RegisteredControl(linuxcnc.DIALECT, {"": linuxcnc.LinuxCnc}),
-    }
-)
+CONTROLS: Final[Mapping[str, RegisteredControl]] = {
+    "threeblock": RegisteredControl(threeblock.DIALECT, {"": threeblock.ThreeBlock}),
+    "rosettacnc": RegisteredControl(rosettacnc.DIALECT, rosettacnc.VARIANTS, tuple(rosettacnc.VARIANTS)),
+    "nine-series": RegisteredControl(nine_series.DIALECT, nine_series.VARIANTS, ("a", "b")),
+    "fanuc": RegisteredControl(fanuc.DIALECT, fanuc.VARIANTS, ("a", "b")),
+    "haas": RegisteredControl(haas.DIALECT, haas.VARIANTS, ("a",)),
+    "klartext": RegisteredControl(None, {"": None}),
+    "linuxcnc": RegisteredControl(linuxcnc.DIALECT, {"": linuxcnc.LinuxCnc}),
+}
 """The controls, in the order in which a comparison shows them."""
 
 

@@ -6,7 +6,6 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 from enum import Enum
 from math import atan2, floor, log10, tau
-from types import MappingProxyType
 from typing import Final
 
 import numpy as np
@@ -160,16 +159,14 @@ def _table(characters: dict[int, str], other: str) -> Characters:
     return np.array([characters.get(code, other) for code in range(256)])
 
 
-_SYMBOLS: Final[Mapping[Symbol, str]] = MappingProxyType(
-    {
-        Symbol.START: "S",
-        Symbol.ARROW: ">",
-        Symbol.PLUNGE: "o",
-        Symbol.GOUGE: "!",
-        Symbol.DELETED: "x",
-        Symbol.CENTER: "+",
-    }
-)
+_SYMBOLS: Final[Mapping[Symbol, str]] = {
+    Symbol.START: "S",
+    Symbol.ARROW: ">",
+    Symbol.PLUNGE: "o",
+    Symbol.GOUGE: "!",
+    Symbol.DELETED: "x",
+    Symbol.CENTER: "+",
+}
 
 
 def _braille() -> Cells:
@@ -189,7 +186,5 @@ def _ascii() -> Cells:
     return Cells(1, 1, np.array([0]), table, _SYMBOLS, ">>^<<<v>", "|-|", _table({0: " "}, "."))
 
 
-CELLS_OF_MODE: Final[Mapping[Mode, Cells]] = MappingProxyType(
-    {Mode.BRAILLE: _braille(), Mode.BLOCK: _block(), Mode.ASCII: _ascii()}
-)
+CELLS_OF_MODE: Final[Mapping[Mode, Cells]] = {Mode.BRAILLE: _braille(), Mode.BLOCK: _block(), Mode.ASCII: _ascii()}
 """The way each mode fills a cell."""

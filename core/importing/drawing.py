@@ -5,7 +5,6 @@ from __future__ import annotations
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field
 from enum import StrEnum
-from types import MappingProxyType
 from typing import Final, NamedTuple
 
 import numpy as np
@@ -48,35 +47,35 @@ class DrawingUnit(StrEnum):
         return Unit.IN if self in (DrawingUnit.IN, DrawingUnit.FT) else Unit.MM
 
 
-_MM: Final = MappingProxyType(
-    {DrawingUnit.IN: 25.4, DrawingUnit.FT: 304.8, DrawingUnit.MM: 1.0, DrawingUnit.CM: 10.0, DrawingUnit.M: 1000.0}
-)
+_MM: Final = {
+    DrawingUnit.IN: 25.4,
+    DrawingUnit.FT: 304.8,
+    DrawingUnit.MM: 1.0,
+    DrawingUnit.CM: 10.0,
+    DrawingUnit.M: 1000.0,
+}
 
-UNIT_CODES: Final = MappingProxyType(
-    {1: DrawingUnit.IN, 2: DrawingUnit.FT, 4: DrawingUnit.MM, 5: DrawingUnit.CM, 6: DrawingUnit.M}
-)
+UNIT_CODES: Final = {1: DrawingUnit.IN, 2: DrawingUnit.FT, 4: DrawingUnit.MM, 5: DrawingUnit.CM, 6: DrawingUnit.M}
 """$INSUNITS codes of the units that are read; for every other code the operator is asked."""
 
-OTHER_UNITS: Final = MappingProxyType(
-    {
-        3: "miles",
-        7: "kilometers",
-        8: "microinches",
-        9: "mils",
-        10: "yards",
-        11: "angstroms",
-        12: "nanometers",
-        13: "microns",
-        14: "decimeters",
-        15: "decameters",
-        16: "hectometers",
-        17: "gigameters",
-        18: "astronomical units",
-        19: "light years",
-        20: "parsecs",
-        21: "US survey feet",
-    }
-)
+OTHER_UNITS: Final = {
+    3: "miles",
+    7: "kilometers",
+    8: "microinches",
+    9: "mils",
+    10: "yards",
+    11: "angstroms",
+    12: "nanometers",
+    13: "microns",
+    14: "decimeters",
+    15: "decameters",
+    16: "hectometers",
+    17: "gigameters",
+    18: "astronomical units",
+    19: "light years",
+    20: "parsecs",
+    21: "US survey feet",
+}
 """Names of the units that are not read, by $INSUNITS."""
 
 

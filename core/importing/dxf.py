@@ -9,7 +9,6 @@ from collections import Counter
 from collections.abc import Callable, Iterable, Iterator, Mapping
 from dataclasses import dataclass, field
 from math import dist, isfinite, radians, tau
-from types import MappingProxyType
 from typing import TYPE_CHECKING, Any, Final, cast
 
 import numpy as np
@@ -430,17 +429,15 @@ class _NotFlatError(Exception):
     """An entity lies outside the XY plane; the text says how."""
 
 
-_READERS: Final[Mapping[str, Callable[[_Reader, Any, Matrix44 | None], Iterator[Shape]]]] = MappingProxyType(
-    {
-        "LINE": _Reader.line,
-        "CIRCLE": _Reader.circle,
-        "ARC": _Reader.circle,
-        "ELLIPSE": _Reader.ellipse,
-        "LWPOLYLINE": _Reader.lwpolyline,
-        "POLYLINE": _Reader.polyline,
-        "SPLINE": _Reader.spline,
-    }
-)
+_READERS: Final[Mapping[str, Callable[[_Reader, Any, Matrix44 | None], Iterator[Shape]]]] = {
+    "LINE": _Reader.line,
+    "CIRCLE": _Reader.circle,
+    "ARC": _Reader.circle,
+    "ELLIPSE": _Reader.ellipse,
+    "LWPOLYLINE": _Reader.lwpolyline,
+    "POLYLINE": _Reader.polyline,
+    "SPLINE": _Reader.spline,
+}
 
 
 def _layer_states(document: Document) -> Iterator[tuple[str, tuple[bool, bool]]]:

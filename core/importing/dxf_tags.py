@@ -11,7 +11,6 @@ from collections import Counter
 from collections.abc import Iterable, Iterator
 from dataclasses import dataclass, field
 from itertools import pairwise
-from types import MappingProxyType
 from typing import Final, NamedTuple
 
 BINARY_MARK: Final = b"AutoCAD Binary DXF\r\n\x1a\x00"
@@ -23,9 +22,7 @@ NO_HANDLE: Final = "0"
 """A handle that means none: no entity may have it, but some programs write it into each."""
 MARKER_CODE: Final = 100
 """The group code of a subclass marker, such as AcDbPolyline."""
-MARKERS_OF_ENTITY: Final = MappingProxyType(
-    {"LWPOLYLINE": ("AcDbEntity", "AcDbPolyline"), "SPLINE": ("AcDbEntity", "AcDbSpline")}
-)
+MARKERS_OF_ENTITY: Final = {"LWPOLYLINE": ("AcDbEntity", "AcDbPolyline"), "SPLINE": ("AcDbEntity", "AcDbSpline")}
 """The markers without which ezdxf does not read an entity: before its common data, and before its own."""
 
 _BREAK: Final = re.compile(rb"\r\n|\r")
@@ -37,28 +34,28 @@ _SECTIONS: Final = frozenset(
 _SUBORDINATE: Final = frozenset({"VERTEX", "SEQEND", "ATTRIB"})
 """Entities that belong to the one before them: points of a POLYLINE, texts of an INSERT."""
 
-_NEEDED: Final = MappingProxyType(
-    {
-        "LINE": (10, 20, 11, 21),
-        "CIRCLE": (10, 20, 40),
-        "ARC": (10, 20, 40, 50, 51),
-        "ELLIPSE": (10, 20, 11, 21, 40),
-        "VERTEX": (10, 20),
-        "INSERT": (2, 10, 20),
-    }
-)
+_NEEDED: Final = {
+    "LINE": (10, 20, 11, 21),
+    "CIRCLE": (10, 20, 40),
+    "ARC": (10, 20, 40, 50, 51),
+    "ELLIPSE": (10, 20, 11, 21, 40),
+    "VERTEX": (10, 20),
+    "INSERT": (2, 10, 20),
+}
 """Group codes that an entity has exactly once: two entities run together have them twice."""
 
-_AT_MOST_ONCE: Final = MappingProxyType(
-    {"ELLIPSE": (41, 42), "VERTEX": (42,), "INSERT": (41, 42, 50), "LWPOLYLINE": (38, 90), "SPLINE": (70, 71)}
-)
+_AT_MOST_ONCE: Final = {
+    "ELLIPSE": (41, 42),
+    "VERTEX": (42,),
+    "INSERT": (41, 42, 50),
+    "LWPOLYLINE": (38, 90),
+    "SPLINE": (70, 71),
+}
 
-_COUNTED: Final = MappingProxyType(
-    {
-        "LWPOLYLINE": (("points", 90, 10), ("points", 90, 20)),
-        "SPLINE": (("knots", 72, 40), ("control points", 73, 10), ("fit points", 74, 11)),
-    }
-)
+_COUNTED: Final = {
+    "LWPOLYLINE": (("points", 90, 10), ("points", 90, 20)),
+    "SPLINE": (("knots", 72, 40), ("control points", 73, 10), ("fit points", 74, 11)),
+}
 """Entities that state how often a group code follows: (what, code of the count, counted code)."""
 
 

@@ -7,7 +7,6 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
 from math import atan2, degrees
-from types import MappingProxyType
 from typing import Final, NamedTuple
 
 import numpy as np
@@ -31,18 +30,16 @@ class _Pen(NamedTuple):
     color: int
 
 
-_PENS: Final[Mapping[Style, _Pen]] = MappingProxyType(
-    {
-        Style.SURFACE: _Pen("CONTOUR", 7),
-        Style.PATH: _Pen("PATH", 4),
-        Style.LEAD: _Pen("LEADS", 2),
-        Style.UNCUT: _Pen("UNCUT", 1),
-        Style.DELETED: _Pen("DELETED", 8),
-        Style.RAPID: _Pen("ROUGH", 9),
-    }
-)
+_PENS: Final[Mapping[Style, _Pen]] = {
+    Style.SURFACE: _Pen("CONTOUR", 7),
+    Style.PATH: _Pen("PATH", 4),
+    Style.LEAD: _Pen("LEADS", 2),
+    Style.UNCUT: _Pen("UNCUT", 1),
+    Style.DELETED: _Pen("DELETED", 8),
+    Style.RAPID: _Pen("ROUGH", 9),
+}
 
-_UNIT_CODES: Final[Mapping[Unit, tuple[int, int]]] = MappingProxyType({Unit.IN: (1, 0), Unit.MM: (4, 1)})
+_UNIT_CODES: Final[Mapping[Unit, tuple[int, int]]] = {Unit.IN: (1, 0), Unit.MM: (4, 1)}
 """$INSUNITS and $MEASUREMENT."""
 
 

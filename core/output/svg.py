@@ -5,7 +5,6 @@ from __future__ import annotations
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
 from math import isfinite, pi
-from types import MappingProxyType
 from typing import Final
 from xml.sax.saxutils import escape
 
@@ -35,28 +34,26 @@ class Pen:
     dashes: str = ""
 
 
-PEN_OF_STYLE: Final[Mapping[Style, Pen]] = MappingProxyType(
-    {
-        Style.AXIS: Pen("#9aa5ad", 0.7, "axes", "8 3 2 3"),
-        Style.SURFACE: Pen("#1b1f23", 2.2, "part surface"),
-        Style.PATH: Pen("#0b62c4", 1.3, "center path"),
-        Style.LEAD: Pen("#00856a", 1.3, "blend moves"),
-        Style.RAPID: Pen("#7a8894", 0.8, "roughing passes or control's path", "2 3"),
-        Style.DELETED: Pen("#b45f06", 2.2, "deleted segments", "6 4"),
-        Style.GOUGE: Pen("#c4001a", 2.6, "gouge"),
-        Style.UNCUT: Pen("#8a2be2", 3.4, "uncut surface"),
-        Style.CUTTER: Pen("#7a8894", 1.0, "cutter"),
-        Style.START: Pen("#1b1f23", 1.6, "start, direction"),
-        Style.CURRENT: Pen("#d18b00", 3.0, "current segment"),
-        Style.SCALE: Pen("#1b1f23", 1.2, "scale"),
-        Style.MESSAGE: Pen("#1b1f23", 1.0, "message"),
-        Style.NUMBER: Pen("#1b1f23", 1.0, "segment number"),
-        Style.GOUGE_AREA: Pen("#c4001a", 0.0, "gouged"),
-        Style.UNCUT_AREA: Pen("#8a2be2", 0.0, "left uncut"),
-        Style.UNTAKEN: Pen("#7a8894", 1.3, "other solutions", "1 4"),
-        Style.BACKGROUND: Pen("#ffffff", 1.0, "background"),
-    }
-)
+PEN_OF_STYLE: Final[Mapping[Style, Pen]] = {
+    Style.AXIS: Pen("#9aa5ad", 0.7, "axes", "8 3 2 3"),
+    Style.SURFACE: Pen("#1b1f23", 2.2, "part surface"),
+    Style.PATH: Pen("#0b62c4", 1.3, "center path"),
+    Style.LEAD: Pen("#00856a", 1.3, "blend moves"),
+    Style.RAPID: Pen("#7a8894", 0.8, "roughing passes or control's path", "2 3"),
+    Style.DELETED: Pen("#b45f06", 2.2, "deleted segments", "6 4"),
+    Style.GOUGE: Pen("#c4001a", 2.6, "gouge"),
+    Style.UNCUT: Pen("#8a2be2", 3.4, "uncut surface"),
+    Style.CUTTER: Pen("#7a8894", 1.0, "cutter"),
+    Style.START: Pen("#1b1f23", 1.6, "start, direction"),
+    Style.CURRENT: Pen("#d18b00", 3.0, "current segment"),
+    Style.SCALE: Pen("#1b1f23", 1.2, "scale"),
+    Style.MESSAGE: Pen("#1b1f23", 1.0, "message"),
+    Style.NUMBER: Pen("#1b1f23", 1.0, "segment number"),
+    Style.GOUGE_AREA: Pen("#c4001a", 0.0, "gouged"),
+    Style.UNCUT_AREA: Pen("#8a2be2", 0.0, "left uncut"),
+    Style.UNTAKEN: Pen("#7a8894", 1.3, "other solutions", "1 4"),
+    Style.BACKGROUND: Pen("#ffffff", 1.0, "background"),
+}
 
 
 def svg(scene: Scene, *, title: str) -> str:

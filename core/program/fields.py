@@ -10,7 +10,6 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 from enum import StrEnum
 from math import isfinite
-from types import MappingProxyType
 from typing import Final
 
 from core.program.model import (
@@ -260,41 +259,39 @@ PICK: Final = (
 )
 """The point the operator picks on the drawing, stored on a run's first segment; not fields of its form."""
 
-FIELDS_OF_FORM: Final[Mapping[Form, tuple[Field, ...]]] = MappingProxyType(
-    {
-        Form.START: START,
-        Form.LINE: LINE,
-        Form.ARC: ARC,
-        Form.BLEND: BLEND,
-        Form.CHAMFER: CHAMFER,
-        Form.TOOL: TOOL,
-        Form.PARAMETERS: PARAMETERS,
-        Form.SETUP: SETUP,
-    }
-)
+FIELDS_OF_FORM: Final[Mapping[Form, tuple[Field, ...]]] = {
+    Form.START: START,
+    Form.LINE: LINE,
+    Form.ARC: ARC,
+    Form.BLEND: BLEND,
+    Form.CHAMFER: CHAMFER,
+    Form.TOOL: TOOL,
+    Form.PARAMETERS: PARAMETERS,
+    Form.SETUP: SETUP,
+}
 
-STORED_FIELDS: Final[Mapping[Form, tuple[Field, ...]]] = MappingProxyType(
-    {form: (*table, *PICK) if form in (Form.LINE, Form.ARC) else table for form, table in FIELDS_OF_FORM.items()}
-)
+STORED_FIELDS: Final[Mapping[Form, tuple[Field, ...]]] = {
+    form: (*table, *PICK) if form in (Form.LINE, Form.ARC) else table for form, table in FIELDS_OF_FORM.items()
+}
 """Everything that is stored for each screen: its fields, and the pick of a LINE or an ARC."""
 
-NUMBER_FIELDS: Final[Mapping[Form, tuple[Field, ...]]] = MappingProxyType(
-    {
-        form: tuple(field for field in table if field.kind not in (Kind.CHOICE, Kind.TEXT))
-        for form, table in STORED_FIELDS.items()
-    }
-)
+NUMBER_FIELDS: Final[Mapping[Form, tuple[Field, ...]]] = {
+    form: tuple(field for field in table if field.kind not in (Kind.CHOICE, Kind.TEXT))
+    for form, table in STORED_FIELDS.items()
+}
 """The fields of each screen that take a number."""
 
-_BY_NAME: Final[Mapping[tuple[Form, str], Field]] = MappingProxyType(
-    {(form, field.name): field for form, table in STORED_FIELDS.items() for field in table}
-    | {(Form.LINE, "choice"): SOLUTION, (Form.ARC, "choice"): SOLUTION}
-)
+_BY_NAME: Final[Mapping[tuple[Form, str], Field]] = {
+    (form, field.name): field for form, table in STORED_FIELDS.items() for field in table
+} | {(Form.LINE, "choice"): SOLUTION, (Form.ARC, "choice"): SOLUTION}
 
 
-SEGMENT_FORMS: Final[Mapping[type[Segment], Form]] = MappingProxyType(
-    {LineSegment: Form.LINE, ArcSegment: Form.ARC, BlendSegment: Form.BLEND, ChamferSegment: Form.CHAMFER}
-)
+SEGMENT_FORMS: Final[Mapping[type[Segment], Form]] = {
+    LineSegment: Form.LINE,
+    ArcSegment: Form.ARC,
+    BlendSegment: Form.BLEND,
+    ChamferSegment: Form.CHAMFER,
+}
 
 
 def form_of(segment: Segment) -> Form:
@@ -338,21 +335,19 @@ def _plain(bound: float) -> str:
     return f"{bound:.0f}" if bound == int(bound) else f"{bound:g}"
 
 
-_DEFAULTS: Final[Mapping[str, tuple[float, float]]] = MappingProxyType(
-    {
-        "blend_offset": (0.125, 3.0),
-        "blend_overlap": (0.125, 3.0),
-        "finish_xy": (0.0, 0.0),
-        "finish_z": (0.0, 0.0),
-        "pocket_overlap": (50.0, 50.0),
-        "max_offset": (0.0, 0.0),
-        "retract_clearance": (0.1, 2.5),
-        "peck_clearance": (0.05, 1.0),
-        "rapid_feed": (200.0, 5000.0),
-        "work_offset": (54.0, 54.0),
-        "safe_z": (1.0, 25.0),
-    }
-)
+_DEFAULTS: Final[Mapping[str, tuple[float, float]]] = {
+    "blend_offset": (0.125, 3.0),
+    "blend_overlap": (0.125, 3.0),
+    "finish_xy": (0.0, 0.0),
+    "finish_z": (0.0, 0.0),
+    "pocket_overlap": (50.0, 50.0),
+    "max_offset": (0.0, 0.0),
+    "retract_clearance": (0.1, 2.5),
+    "peck_clearance": (0.05, 1.0),
+    "rapid_feed": (200.0, 5000.0),
+    "work_offset": (54.0, 54.0),
+    "safe_z": (1.0, 25.0),
+}
 
 
 def default_value(name: str, unit: Unit) -> float | None:

@@ -8,7 +8,6 @@ from __future__ import annotations
 from collections.abc import Mapping
 from dataclasses import dataclass
 from math import dist, hypot, tau
-from types import MappingProxyType
 from typing import Final
 
 from core.controls.compensation.corner_rules import CornerKind, CornerRules, Inside, Joint, join
@@ -89,9 +88,16 @@ class ElementQueue(Recorder):
         self.start = None
 
 
-NOSE_DIRECTIONS: Final[Mapping[int, tuple[int, int]]] = MappingProxyType(
-    {1: (1, -1), 2: (-1, -1), 3: (-1, 1), 4: (1, 1), 5: (1, 0), 6: (0, -1), 7: (-1, 0), 8: (0, 1)}
-)
+NOSE_DIRECTIONS: Final[Mapping[int, tuple[int, int]]] = {
+    1: (1, -1),
+    2: (-1, -1),
+    3: (-1, 1),
+    4: (1, 1),
+    5: (1, 0),
+    6: (0, -1),
+    7: (-1, 0),
+    8: (0, 1),
+}
 """Direction in Z and X from the nose's center to the controlled point, in radii, by lathe orientation."""
 
 NO_FIT: Final = "The cutter does not fit into this corner without gouging. Use a smaller cutter or open the corner."

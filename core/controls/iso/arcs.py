@@ -5,7 +5,6 @@ from __future__ import annotations
 from collections.abc import Mapping
 from dataclasses import dataclass
 from math import hypot, sqrt
-from types import MappingProxyType
 from typing import Final
 
 from core.controls.moves import Plane, Point3
@@ -87,9 +86,11 @@ def center_by_radius(start: Point, end: Point, radius: float, turn: int) -> Poin
     return (start[0] + end[0]) / 2 - distance * dy / chord, (start[1] + end[1]) / 2 + distance * dx / chord
 
 
-IN_PLANE: Final[Mapping[Plane, tuple[str, str, str]]] = MappingProxyType(
-    {Plane.XY: ("I", "J", "K"), Plane.ZX: ("K", "I", "J"), Plane.YZ: ("J", "K", "I")}
-)
+IN_PLANE: Final[Mapping[Plane, tuple[str, str, str]]] = {
+    Plane.XY: ("I", "J", "K"),
+    Plane.ZX: ("K", "I", "J"),
+    Plane.YZ: ("J", "K", "I"),
+}
 """The letters of a center's first and second coordinate in a plane, and of the one across it."""
 
 

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Container, Mapping
-from types import MappingProxyType
 from typing import Final
 
 LINUXCNC: Final = "LinuxCNC"
@@ -13,24 +12,23 @@ THREEBLOCK: Final = "three-block"
 FANUC: Final = "Fanuc"
 HAAS: Final = "Haas"
 
-CONTROLS_WITH_CODE: Final[Mapping[int, tuple[str, ...]]] = MappingProxyType(
-    {
-        **dict.fromkeys((70, 80, 431, 432, 611, 901, 911, 922, 923), (LINUXCNC,)),
-        **dict.fromkeys((411, 421, 591, 592, 593), (LINUXCNC, ROSETTACNC)),
-        921: (LINUXCNC, NINE_SERIES),
-        390: (NINE_SERIES, FANUC),
-        391: (NINE_SERIES,),
-        **dict.fromkeys((440, 450), (THREEBLOCK,)),
-        **dict.fromkeys((500, 690), (ROSETTACNC, FANUC, HAAS)),
-        **dict.fromkeys((610, 640, 960, 970, 980, 520, 530, 100), (LINUXCNC, NINE_SERIES, FANUC, HAAS)),
-        **dict.fromkeys((700, 710), (THREEBLOCK, NINE_SERIES)),
-    }
-)
+CONTROLS_WITH_CODE: Final[Mapping[int, tuple[str, ...]]] = {
+    **dict.fromkeys((70, 80, 431, 432, 611, 901, 911, 922, 923), (LINUXCNC,)),
+    **dict.fromkeys((411, 421, 591, 592, 593), (LINUXCNC, ROSETTACNC)),
+    921: (LINUXCNC, NINE_SERIES),
+    390: (NINE_SERIES, FANUC),
+    391: (NINE_SERIES,),
+    **dict.fromkeys((440, 450), (THREEBLOCK,)),
+    **dict.fromkeys((500, 690), (ROSETTACNC, FANUC, HAAS)),
+    **dict.fromkeys((610, 640, 960, 970, 980, 520, 530, 100), (LINUXCNC, NINE_SERIES, FANUC, HAAS)),
+    **dict.fromkeys((700, 710), (THREEBLOCK, NINE_SERIES)),
+}
 """G codes in tenths that not every control has, and the controls that have them."""
 
-TOOL_DATA: Final[Mapping[int, tuple[str, ...]]] = MappingProxyType(
-    {**dict.fromkeys((1, 10, 11), (LINUXCNC, FANUC, HAAS)), **dict.fromkeys((12, 13), (FANUC, HAAS))}
-)
+TOOL_DATA: Final[Mapping[int, tuple[str, ...]]] = {
+    **dict.fromkeys((1, 10, 11), (LINUXCNC, FANUC, HAAS)),
+    **dict.fromkeys((12, 13), (FANUC, HAAS)),
+}
 """The controls on which G10 sets a tool's data, by the L of the block."""
 
 CONTROLS_WITH_EXPRESSIONS: Final = (LINUXCNC, ROSETTACNC, FANUC, HAAS)

@@ -8,7 +8,6 @@ from __future__ import annotations
 from collections.abc import Mapping
 from dataclasses import dataclass, field
 from enum import Enum, auto
-from types import MappingProxyType
 from typing import Final
 
 from core.controls.iso.arcs import USUAL_ARC_TOLERANCE, ArcTolerance
@@ -62,7 +61,7 @@ class Code:
     value: int = 0
 
 
-PLANE_OF_CODE: Final[Mapping[int, Plane]] = MappingProxyType({170: Plane.XY, 180: Plane.ZX, 190: Plane.YZ})
+PLANE_OF_CODE: Final[Mapping[int, Plane]] = {170: Plane.XY, 180: Plane.ZX, 190: Plane.YZ}
 
 CodeGroup = tuple[str, CodeAction, tuple[int, ...]]
 
@@ -93,7 +92,7 @@ In the motion group, G80 leaves no motion in force, and is ignored next to anoth
 def codes(*groups: CodeGroup) -> Mapping[int, Code]:
     """Return the common codes with a control's own added; its own replace common ones."""
     every = (*_COMMON_CODES, *groups)
-    return MappingProxyType({code: Code(group, action, code) for group, action, numbers in every for code in numbers})
+    return {code: Code(group, action, code) for group, action, numbers in every for code in numbers}
 
 
 @dataclass(frozen=True, slots=True)
@@ -149,7 +148,7 @@ class Dialect:
     rate_clears_feed: bool = False
     tool_data_kinds: frozenset[int] = frozenset()
     tells_unused: bool = True
-    rule_names: Mapping[str, str] = field(default_factory=lambda: MappingProxyType({}))
+    rule_names: Mapping[str, str] = field(default_factory=dict)
     last_code_counts: bool = False
     repeat_letters: str = "L"
     fanuc_cycles: bool = False
@@ -168,12 +167,12 @@ class Dialect:
 _ALWAYS_USED: Final = frozenset("NOXYZFSTABCUVW")
 """Words that have a meaning in any block; axes other than X, Y and Z are reported as axes."""
 
-_USED_BY_G: Final[Mapping[int, str]] = MappingProxyType(
+_USED_BY_G: Final[Mapping[int, str]] = (
     {40: "PXU", 100: "LPR", 400: "DIJK", 411: "DL", 421: "DL", 410: "DI", 420: "DI"}
     | {430: "H", 490: "H", 640: "P", 960: "D", 440: "H", 541: "P", 1540: "P"}
     | {50: "PR", 51: "QR", 80: "P", 390: "IJK", 510: "PIJK", 680: "R", 1030: "P", 1870: "PE"}
 )
-_USED_BY_M: Final[Mapping[int, str]] = MappingProxyType({960: "PQL", 970: "PL", 980: "PL", 990: "P", 1980: "PL"})
+_USED_BY_M: Final[Mapping[int, str]] = {960: "PQL", 970: "PL", 980: "PL", 990: "P", 1980: "PL"}
 _USED_BY_ARC: Final = "IJKR"
 _USED_BY_CYCLE: Final = "RQPLIJK"
 

@@ -10,7 +10,6 @@ from __future__ import annotations
 import re
 from collections.abc import Callable, Mapping
 from math import asin, atan, atan2, ceil, degrees, floor, fmod
-from types import MappingProxyType
 from typing import Final
 
 from core.controls.control_run import Log
@@ -144,48 +143,44 @@ def equal(left: float, right: float) -> bool:
 
 
 _RELATION_RANK: Final = 0
-_BINARY_OPERATORS: Final[Mapping[str, tuple[int, Operation]]] = MappingProxyType(
-    {
-        "EQ": (_RELATION_RANK, equal),
-        "NE": (_RELATION_RANK, lambda left, right: not equal(left, right)),
-        "GT": (_RELATION_RANK, lambda left, right: left > right),
-        "LT": (_RELATION_RANK, lambda left, right: left < right),
-        "GE": (_RELATION_RANK, lambda left, right: left >= right),
-        "LE": (_RELATION_RANK, lambda left, right: left <= right),
-        "+": (1, lambda left, right: left + right),
-        "-": (1, lambda left, right: left - right),
-        "OR": (1, bits(int.__or__)),
-        "XOR": (1, bits(int.__xor__)),
-        "*": (2, lambda left, right: left * right),
-        "/": (2, lambda left, right: left / right),
-        "AND": (2, bits(int.__and__)),
-        "MOD": (2, fmod),
-    }
-)
+_BINARY_OPERATORS: Final[Mapping[str, tuple[int, Operation]]] = {
+    "EQ": (_RELATION_RANK, equal),
+    "NE": (_RELATION_RANK, lambda left, right: not equal(left, right)),
+    "GT": (_RELATION_RANK, lambda left, right: left > right),
+    "LT": (_RELATION_RANK, lambda left, right: left < right),
+    "GE": (_RELATION_RANK, lambda left, right: left >= right),
+    "LE": (_RELATION_RANK, lambda left, right: left <= right),
+    "+": (1, lambda left, right: left + right),
+    "-": (1, lambda left, right: left - right),
+    "OR": (1, bits(int.__or__)),
+    "XOR": (1, bits(int.__xor__)),
+    "*": (2, lambda left, right: left * right),
+    "/": (2, lambda left, right: left / right),
+    "AND": (2, bits(int.__and__)),
+    "MOD": (2, fmod),
+}
 
 
 def _rounded(value: float) -> float:
     return float(floor(value + 0.5) if value >= 0.0 else -floor(0.5 - value))
 
 
-_FUNCTIONS: Final[Mapping[str, Callable[[float], float]]] = MappingProxyType(
-    {
-        **FUNCTIONS,
-        "ASIN": lambda value: degrees(asin(value)) % 360.0,
-        "ATAN": lambda value: degrees(atan(value)),
-        "ROUND": _rounded,
-        "FIX": lambda value: float(floor(value) if value >= 0.0 else ceil(value)),
-        "FUP": lambda value: float(ceil(value) if value >= 0.0 else floor(value)),
-        # a number's decimal digits are the value's groups of four bits, and the reverse
-        "BIN": lambda value: float(int(f"{round(value):x}")),
-        "BCD": lambda value: float(int(str(round(value)), 16)),
-        "ADP": float,
-        "POW": float,
-    }
-)
+_FUNCTIONS: Final[Mapping[str, Callable[[float], float]]] = {
+    **FUNCTIONS,
+    "ASIN": lambda value: degrees(asin(value)) % 360.0,
+    "ATAN": lambda value: degrees(atan(value)),
+    "ROUND": _rounded,
+    "FIX": lambda value: float(floor(value) if value >= 0.0 else ceil(value)),
+    "FUP": lambda value: float(ceil(value) if value >= 0.0 else floor(value)),
+    # a number's decimal digits are the value's groups of four bits, and the reverse
+    "BIN": lambda value: float(int(f"{round(value):x}")),
+    "BCD": lambda value: float(int(str(round(value)), 16)),
+    "ADP": float,
+    "POW": float,
+}
 _FUNCTION: Final = re.compile(r"([A-Z]{2,5})\[")
 _LENGTH_LETTERS: Final = frozenset("IJKQRUVWXYZ")
-INCREMENTS: Final = MappingProxyType({"20": 0.0001, "21": 0.001})
+INCREMENTS: Final = {"20": 0.0001, "21": 0.001}
 """The least increment of a length in the unit that each G code chooses."""
 
 

@@ -10,7 +10,6 @@ import re
 from bisect import bisect_right
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
-from types import MappingProxyType
 from typing import Final, NamedTuple, NoReturn
 
 from core.controls.control_run import NOT_RUN_TEXT, Log
@@ -90,9 +89,8 @@ _FOR_EDITORS: Final = re.compile(r"[ \t]*+(?:\$[a-z]|#(?:end)?region\b)", re.IGN
 """Lines such as $AddRegPart and #region, which never reach a control."""
 _EXPRESSION_CHARACTERS: Final = frozenset("#[,")
 
-ARGUMENT_NUMBERS: Final[Mapping[str, int]] = MappingProxyType(
-    {"A": 1, "B": 2, "C": 3, "D": 7, "E": 8, "F": 9, "H": 11, "I": 4, "J": 5, "K": 6, "M": 13}
-    | {"Q": 17, "R": 18, "S": 19, "T": 20, "U": 21, "V": 22, "W": 23, "X": 24, "Y": 25, "Z": 26}
+ARGUMENT_NUMBERS: Final[Mapping[str, int]] = dict(
+    zip("ABCIJKDEFHMQRSTUVWXYZ", (*range(1, 10), 11, 13, *range(17, 27)), strict=True)
 )
 """The variable that each argument of G65 sets; each repeat of I, J or K sets the one three further on."""
 

@@ -9,7 +9,6 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from math import atan2, cos, hypot, radians, sin, tan
-from types import MappingProxyType
 from typing import Final, NoReturn
 
 from core.controls.compensation.elements import arc_element
@@ -59,33 +58,38 @@ _PROGRAM_VARIABLE: Final = 4115
 """The number of the program: a file that is run need not have one."""
 
 _NO_EFFECT: Final = (3003, 3004, 3006, 3007)
-_GROUP_VARIABLES: Final[Mapping[int, tuple[str, int]]] = MappingProxyType(
-    {
-        4001: ("motion", 0),
-        4002: ("plane", 170),
-        4003: ("distance", 900),
-        4004: ("stroke", 230),
-        4005: ("feed", 940),
-        4006: ("units", 210),
-        4007: ("compensation", 400),
-        4008: ("length", 490),
-        4009: ("cycle", 800),
-        4010: ("retract", 980),
-        4011: ("scaling", 500),
-        4012: ("macro", 670),
-        4013: ("spindle", 970),
-        4014: ("system", 540),
-        4015: ("path", 640),
-        4016: ("rotation", 690),
-        4017: ("polar", 150),
-        4022: ("mirror", 501),
-    }
-)
+_GROUP_VARIABLES: Final[Mapping[int, tuple[str, int]]] = {
+    4001: ("motion", 0),
+    4002: ("plane", 170),
+    4003: ("distance", 900),
+    4004: ("stroke", 230),
+    4005: ("feed", 940),
+    4006: ("units", 210),
+    4007: ("compensation", 400),
+    4008: ("length", 490),
+    4009: ("cycle", 800),
+    4010: ("retract", 980),
+    4011: ("scaling", 500),
+    4012: ("macro", 670),
+    4013: ("spindle", 970),
+    4014: ("system", 540),
+    4015: ("path", 640),
+    4016: ("rotation", 690),
+    4017: ("polar", 150),
+    4022: ("mirror", 501),
+}
 """The code group whose code in force a variable reads, and the code in force at the start."""
 
-_LAST_WORDS: Final[Mapping[int, str]] = MappingProxyType(
-    {4102: "B", 4107: "D", 4109: "F", 4111: "H", 4113: "M", 4114: "N", 4119: "S", 4120: "T"}
-)
+_LAST_WORDS: Final[Mapping[int, str]] = {
+    4102: "B",
+    4107: "D",
+    4109: "F",
+    4111: "H",
+    4113: "M",
+    4114: "N",
+    4119: "S",
+    4120: "T",
+}
 
 
 @dataclass(frozen=True, slots=True)
@@ -97,7 +101,7 @@ class Transform:
     `angle` rotates about `center` in `plane`, radians.
     """
 
-    mirror: Mapping[int, float] = field(default_factory=lambda: MappingProxyType({}))
+    mirror: Mapping[int, float] = field(default_factory=dict)
     factors: Point3 = UNSCALED
     fixed: Point3 = ORIGIN
     angle: float = 0.0
@@ -381,10 +385,10 @@ class MacroMachine(Machine):
             case 501:
                 named = [axis for axis in range(3) if "XYZ"[axis] in words] or [0, 1, 2]
                 kept = {axis: at for axis, at in state.mirror.items() if axis not in named}
-                self.transform = replace(state, mirror=MappingProxyType(kept))
+                self.transform = replace(state, mirror=kept)
             case 511:
                 coordinates = {axis: self._absolute(axis, words) for axis in range(3) if "XYZ"[axis] in words}
-                self.transform = replace(state, mirror=MappingProxyType({**state.mirror, **coordinates}))
+                self.transform = replace(state, mirror={**state.mirror, **coordinates})
             case 510:
                 self._scale(block)
             case 680:

@@ -7,7 +7,6 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import dataclass, field, replace
-from types import MappingProxyType
 from typing import Final
 
 from core.controls.control_run import Log
@@ -49,7 +48,7 @@ class Origin:
     `stored` is the shift that G92.3 restores.
     """
 
-    systems: Mapping[int, Point3] = field(default_factory=lambda: MappingProxyType({}))
+    systems: Mapping[int, Point3] = field(default_factory=dict)
     system: int = G54
     local: Point3 = ORIGIN
     stored: Point3 = ORIGIN
@@ -152,7 +151,7 @@ class ModalState:
 
     def set_system(self, code: int, offset: Point3) -> None:
         """Set the work offset of a code, in millimeters."""
-        systems = MappingProxyType({**self.origin.systems, code: offset})
+        systems = {**self.origin.systems, code: offset}
         self.set_origin(replace(self.origin, systems=systems))
 
     def set_length_offset(self, offset: Point3) -> None:

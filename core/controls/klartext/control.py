@@ -5,7 +5,6 @@ from __future__ import annotations
 import re
 from collections.abc import Callable, Mapping, Sequence
 from math import isclose
-from types import MappingProxyType
 from typing import Final
 
 from core.controls.control_run import NOT_RUN_TEXT, AlarmError, ControlRun, Log
@@ -202,41 +201,39 @@ def _condition(state: State, block: Block) -> None:
         _jump(state, block, label[1])
 
 
-BLOCK_FUNCTIONS: Final[Mapping[str, Callable[[State, Block], None]]] = MappingProxyType(
-    {
-        "L": path_functions.line,
-        "LP": path_functions.polar_line,
-        "CC": path_functions.pole,
-        "RND": path_functions.corner,
-        "CHF": path_functions.corner,
-        "C": path_functions.circle,
-        "CR": path_functions.radius_arc,
-        "CT": path_functions.tangent_arc,
-        "CP": path_functions.polar_circle,
-        "CTP": path_functions.polar_tangent,
-        "APPR": leads.approach,
-        "DEP": leads.depart,
-        "BEGIN": setup_blocks.begin,
-        "END": setup_blocks.end,
-        "BLK": setup_blocks.ignored,
-        "TOOL": setup_blocks.tool,
-        "CYCL": cycles.cycle,
-        "TRANS": setup_blocks.transformation,
-        "PLANE": setup_blocks.plane,
-        "*": setup_blocks.structure,
-        "(": setup_blocks.bracketed,
-        "FUNCTION": setup_blocks.function,
-        "DECLARE": setup_blocks.text_parameter,
-        "QS": setup_blocks.text_parameter,
-        "STOP": m_functions.only_functions,
-        "M": m_functions.only_functions,
-        "LBL": _label,
-        "CALL": _call,
-        "FN": _function,
-        "IF": _condition,
-        "Q": _parameter,
-        "QL": _parameter,
-        "QR": _parameter,
-    }
-)
+BLOCK_FUNCTIONS: Final[Mapping[str, Callable[[State, Block], None]]] = {
+    "L": path_functions.line,
+    "LP": path_functions.polar_line,
+    "CC": path_functions.pole,
+    "RND": path_functions.corner,
+    "CHF": path_functions.corner,
+    "C": path_functions.circle,
+    "CR": path_functions.radius_arc,
+    "CT": path_functions.tangent_arc,
+    "CP": path_functions.polar_circle,
+    "CTP": path_functions.polar_tangent,
+    "APPR": leads.approach,
+    "DEP": leads.depart,
+    "BEGIN": setup_blocks.begin,
+    "END": setup_blocks.end,
+    "BLK": setup_blocks.ignored,
+    "TOOL": setup_blocks.tool,
+    "CYCL": cycles.cycle,
+    "TRANS": setup_blocks.transformation,
+    "PLANE": setup_blocks.plane,
+    "*": setup_blocks.structure,
+    "(": setup_blocks.bracketed,
+    "FUNCTION": setup_blocks.function,
+    "DECLARE": setup_blocks.text_parameter,
+    "QS": setup_blocks.text_parameter,
+    "STOP": m_functions.only_functions,
+    "M": m_functions.only_functions,
+    "LBL": _label,
+    "CALL": _call,
+    "FN": _function,
+    "IF": _condition,
+    "Q": _parameter,
+    "QL": _parameter,
+    "QR": _parameter,
+}
 """The function that runs a block, by its head word."""

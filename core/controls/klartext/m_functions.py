@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from types import MappingProxyType
 from typing import Final
 
 from core.controls.compensation.corner_rules import CornerRules
@@ -18,24 +17,20 @@ MAX_LOOK_AHEAD: Final = 99
 
 M120_SKIPS: Final = "cutcomp assumes M120 skips what lies between two crossings of the path within LA blocks."
 
-_FEED_FUNCTIONS: Final[Mapping[int, FeedAt]] = MappingProxyType(
-    {109: FeedAt.EDGE, 110: FeedAt.INSIDE_EDGE, 111: FeedAt.CENTER}
-)
-_CORNER_FUNCTIONS: Final[Mapping[int, CornerRules]] = MappingProxyType({97: M97, 98: M98})
+_FEED_FUNCTIONS: Final[Mapping[int, FeedAt]] = {109: FeedAt.EDGE, 110: FeedAt.INSIDE_EDGE, 111: FeedAt.CENTER}
+_CORNER_FUNCTIONS: Final[Mapping[int, CornerRules]] = {97: M97, 98: M98}
 _IGNORED_FUNCTIONS: Final = frozenset((0, 1, 3, 4, 5, 6, 7, 8, 9, 13, 14))
 _MOVING_FUNCTIONS: Final = frozenset((89, 91, 92, 114, 128, 130, 140, 144))
 _CYCLE_CALL: Final = 99
 _MACHINE_POSITION_FUNCTIONS: Final = frozenset(("M91", "M92", "M140"))
-_FUNCTION_OF_WORD: Final[Mapping[str, str]] = MappingProxyType({"LA": "M120", "MB": "M140", "MAX": "M140"})
-_DIFFERENT_ON_CONTROL: Final[Mapping[int, str]] = MappingProxyType(
-    {
-        90: "the control rounds corners that run without compensation",
-        103: "the control lowers the feed of plunging moves",
-        112: "the control rounds corners within a tolerance",
-        124: "the control leaves out points of short lines",
-        136: "the control takes F in millimeters per revolution",
-    }
-)
+_FUNCTION_OF_WORD: Final[Mapping[str, str]] = {"LA": "M120", "MB": "M140", "MAX": "M140"}
+_DIFFERENT_ON_CONTROL: Final[Mapping[int, str]] = {
+    90: "the control rounds corners that run without compensation",
+    103: "the control lowers the feed of plunging moves",
+    112: "the control rounds corners within a tolerance",
+    124: "the control leaves out points of short lines",
+    136: "the control takes F in millimeters per revolution",
+}
 
 
 def functions(state: State, block: Block, words: Words) -> CornerRules:

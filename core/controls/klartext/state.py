@@ -8,7 +8,6 @@ from __future__ import annotations
 from collections.abc import Collection, Mapping, Sequence
 from dataclasses import dataclass, field
 from re import Pattern
-from types import MappingProxyType
 from typing import Final, NoReturn
 
 from core.controls.compensation.elements import Element
@@ -26,13 +25,12 @@ from core.geometry.piece import Point
 from core.tolerance import LARGEST_COORDINATE
 from core.units import Unit, to_mm
 
-AXIS_WORDS: Final[Mapping[str, tuple[int, bool]]] = MappingProxyType(
-    {name: (index, False) for index, name in enumerate("XYZ")}
-    | {f"I{name}": (index, True) for index, name in enumerate("XYZ")}
-)
+AXIS_WORDS: Final[Mapping[str, tuple[int, bool]]] = {name: (index, False) for index, name in enumerate("XYZ")} | {
+    f"I{name}": (index, True) for index, name in enumerate("XYZ")
+}
 """Axis words: the index of the axis, and True if the value counts from the last programmed position."""
 
-SIDE_WORDS: Final[Mapping[str, int]] = MappingProxyType({"R0": 0, "RL": 1, "RR": -1})
+SIDE_WORDS: Final[Mapping[str, int]] = {"R0": 0, "RL": 1, "RR": -1}
 COMMON_WORDS: Final = frozenset(("R0", "RL", "RR", "F", "FMAX", "FAUTO", "M", "LA", "MB", "MAX"))
 FEED_WORDS: Final = frozenset(("F", "FMAX", "FAUTO"))
 ROTARY_AXES: Final = frozenset("ABC")

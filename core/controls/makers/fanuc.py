@@ -8,7 +8,6 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from functools import partial
-from types import MappingProxyType
 from typing import Final
 
 from core.controls.compensation.corner_rules import Outside
@@ -58,26 +57,24 @@ CODE_GROUPS: Final = (
 
 CODES: Final = codes(*CODE_GROUPS)
 
-RULE_NAMES: Final[Mapping[str, str]] = MappingProxyType(
-    {
-        "CODE": "PS0010",
-        "WORD": "PS0009",
-        "COMMENT": "PS0004",
-        "NUMBER": "PS0007",
-        "PARAMETER": "PS0115",
-        "ARC-RADII": "PS0020",
-        "ARC-POINT": "PS0038",
-        "ARC-PLANE": "PS0021",
-        "ARC": "PS0022",
-        "SUBPROGRAM": "PS0076",
-        "MACRO": "PS0114",
-        "LIMIT": "FN-ENDLESS",
-        "MOTION": "PS0010",
-        "CYCLE": "PS0005",
-        "DATA": "PS0031",
-        "FEED": "PS0011",
-    }
-)
+RULE_NAMES: Final[Mapping[str, str]] = {
+    "CODE": "PS0010",
+    "WORD": "PS0009",
+    "COMMENT": "PS0004",
+    "NUMBER": "PS0007",
+    "PARAMETER": "PS0115",
+    "ARC-RADII": "PS0020",
+    "ARC-POINT": "PS0038",
+    "ARC-PLANE": "PS0021",
+    "ARC": "PS0022",
+    "SUBPROGRAM": "PS0076",
+    "MACRO": "PS0114",
+    "LIMIT": "FN-ENDLESS",
+    "MOTION": "PS0010",
+    "CYCLE": "PS0005",
+    "DATA": "PS0031",
+    "FEED": "PS0011",
+}
 """Fanuc's alarm for each rule that all word-address controls share, by the rule's id."""
 
 DIALECT: Final = Dialect(
@@ -409,16 +406,12 @@ class Fanuc(VectorQueue, Control):
         self.log.tell(Severity.WARNING, "FN-OPEN", text, line, 1)
 
 
-VECTOR_RULES: Final[Mapping[str, VectorRules]] = MappingProxyType(
-    {
-        f"{kind}{corners}": VectorRules(type_a=kind != "b", at_once=kind == "c", outside=outside)
-        for kind in ("a", "b", "c")
-        for corners, outside in (("", Outside.LINES), ("-arc", Outside.MITER_OR_ANY_ARC))
-    }
-)
+VECTOR_RULES: Final[Mapping[str, VectorRules]] = {
+    f"{kind}{corners}": VectorRules(type_a=kind != "b", at_once=kind == "c", outside=outside)
+    for kind in ("a", "b", "c")
+    for corners, outside in (("", Outside.LINES), ("-arc", Outside.MITER_OR_ANY_ARC))
+}
 """The start-up type of each variant, and how it rounds sharp outside corners."""
 
-VARIANTS: Final[Mapping[str, MakeControl]] = MappingProxyType(
-    {name: partial(Fanuc, rules=rules) for name, rules in VECTOR_RULES.items()}
-)
+VARIANTS: Final[Mapping[str, MakeControl]] = {name: partial(Fanuc, rules=rules) for name, rules in VECTOR_RULES.items()}
 """The variants, the default first."""

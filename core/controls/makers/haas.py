@@ -9,7 +9,6 @@ from __future__ import annotations
 from collections.abc import Mapping
 from dataclasses import replace
 from functools import partial
-from types import MappingProxyType
 from typing import Final
 
 from core.controls.compensation.corner_rules import Outside
@@ -87,13 +86,11 @@ class Haas(fanuc.Fanuc):
         self.log.stop("H349", text, line, 1)
 
 
-VARIANTS: Final[Mapping[str, MakeControl]] = MappingProxyType(
-    {
-        f"{kind}{corners}": partial(
-            Haas, rules=VectorRules(type_a=kind == "a", outside=outside, blocks_read=BLOCKS_READ, point_arcs=False)
-        )
-        for kind in ("a", "b")
-        for corners, outside in (("", Outside.LINES), ("-yasnac", Outside.ARC))
-    }
-)
+VARIANTS: Final[Mapping[str, MakeControl]] = {
+    f"{kind}{corners}": partial(
+        Haas, rules=VectorRules(type_a=kind == "a", outside=outside, blocks_read=BLOCKS_READ, point_arcs=False)
+    )
+    for kind in ("a", "b")
+    for corners, outside in (("", Outside.LINES), ("-yasnac", Outside.ARC))
+}
 """The variants, the default first."""

@@ -9,7 +9,6 @@ point.
 from __future__ import annotations
 
 from collections.abc import Mapping
-from types import MappingProxyType
 from typing import Final
 
 from core.controls.compensation.element_queue import OneMoveQueue
@@ -311,17 +310,13 @@ _USER_M: Final = tuple(f"M{code}" for code in range(1000, 2000, 10))
 _SWITCHED: Final = tuple(f"M{code}" for code in (500, 510, 520, 530, 620, 630, 640, 650, 660))
 _CYCLE_CODES: Final = tuple(f"G{code}" for code in (730, *range(810, 900, 10)))
 
-WORDS_NEED_CODES: Final[Mapping[str, frozenset[str]]] = MappingProxyType(
-    {
-        "L": frozenset(("G100", "G410", "G411", "G420", "G421", "M660", "M980", *_CYCLE_CODES)),
-        "P": frozenset(
-            ("G20", "G30", "G40", "G100", "G640", "M190", "M980", "G740", *_CYCLE_CODES, *_SWITCHED, *_USER_M)
-        ),
-        "Q": frozenset(("G100", "G640", "M190", "M610", "M660", "M670", "M680", *_CYCLE_CODES, *_USER_M)),
-        "H": frozenset(("G430", "G432", "G760")),
-        "E": frozenset(("G700", "G760", "M660", "M670", "M680")),
-    }
-)
+WORDS_NEED_CODES: Final[Mapping[str, frozenset[str]]] = {
+    "L": frozenset(("G100", "G410", "G411", "G420", "G421", "M660", "M980", *_CYCLE_CODES)),
+    "P": frozenset(("G20", "G30", "G40", "G100", "G640", "M190", "M980", "G740", *_CYCLE_CODES, *_SWITCHED, *_USER_M)),
+    "Q": frozenset(("G100", "G640", "M190", "M610", "M660", "M670", "M680", *_CYCLE_CODES, *_USER_M)),
+    "H": frozenset(("G430", "G432", "G760")),
+    "E": frozenset(("G700", "G760", "M660", "M670", "M680")),
+}
 """Words that a block may have only together with one of these codes."""
 
 _OTHERS: Final = frozenset((*WORDS_NEED_CODES, "O"))

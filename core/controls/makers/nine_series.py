@@ -11,7 +11,6 @@ from __future__ import annotations
 from collections.abc import Mapping
 from functools import partial
 from math import radians
-from types import MappingProxyType
 from typing import Final, NamedTuple
 
 from core.controls.compensation.corner_rules import (
@@ -366,11 +365,9 @@ class NineSeries(ElementQueue, Control):
         self.release_at_end()
 
 
-VARIANTS: Final[Mapping[str, MakeControl]] = MappingProxyType(
-    {
-        f"{kind}{corners}": partial(NineSeries, type_a=kind == "a", outside=outside)
-        for kind in ("a", "b")
-        for corners, outside in (("", Outside.LINES), ("-g39", Outside.LINES), ("-g39.1", Outside.MITER_OR_ARC))
-    }
-)
+VARIANTS: Final[Mapping[str, MakeControl]] = {
+    f"{kind}{corners}": partial(NineSeries, type_a=kind == "a", outside=outside)
+    for kind in ("a", "b")
+    for corners, outside in (("", Outside.LINES), ("-g39", Outside.LINES), ("-g39.1", Outside.MITER_OR_ARC))
+}
 """Type A or B, and what rounds sharp outside corners when the program starts: lines (G39) or an arc (G39.1)."""

@@ -10,7 +10,6 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from math import acos, atan2, copysign, cos, hypot, pi, sin
-from types import MappingProxyType
 from typing import Final, NoReturn
 
 from core.controls.compensation.corner_rules import CornerKind, CornerRules
@@ -262,7 +261,5 @@ class EasyEntry(NistEntry):
             self._end_entry(offset_end(self.held, self.offset))
 
 
-VARIANTS: Final[Mapping[str, type[Control]]] = MappingProxyType(
-    {"nist": NistEntry, "easy": EasyEntry, "normal": NormalEntry}
-)
+VARIANTS: Final[Mapping[str, type[Control]]] = {"nist": NistEntry, "easy": EasyEntry, "normal": NormalEntry}
 """The entries, the default first."""

@@ -5,7 +5,6 @@ from __future__ import annotations
 from collections.abc import Mapping
 from dataclasses import dataclass, replace
 from enum import Enum, auto
-from types import MappingProxyType
 from typing import Final
 
 from core.units import Unit
@@ -81,39 +80,37 @@ _NINE_SERIES: Final = IsoStyle(
 )
 _FANUC: Final = replace(_NINE_SERIES, head=("%", "O0001"), tail=("%",))
 
-STYLE_OF_CONTROL: Final[Mapping[str, IsoStyle]] = MappingProxyType(
-    {
-        "threeblock": IsoStyle(
-            "G70",
-            "G71",
-            ("G17{unit}G40G90",),
-            (4, 3),
-            EntryRule.SQUARE_TO_NEXT,
-            Radius.DATA,
-            absolute=True,
-            merged=True,
-            comments=False,
-            length=False,
-            spaced=False,
-        ),
-        "rosettacnc:nist": replace(FREE_ENTRY, entry=EntryRule.TANGENT),
-        "rosettacnc:easy": FREE_ENTRY,
-        "rosettacnc:normal": replace(FREE_ENTRY, entry=EntryRule.SQUARE_TO_ITSELF),
-        **{
-            f"nine-series:{kind}{corners}": replace(_NINE_SERIES, corner_code=code)
-            for kind in ("a", "b")
-            for corners, code in (("", "G39"), ("-g39", "G39"), ("-g39.1", "G39.1"))
-        },
-        **{f"fanuc:{kind}{corners}": _FANUC for kind in ("a", "b", "c") for corners in ("", "-arc")},
-        **{f"haas:{kind}{corners}": _FANUC for kind in ("a", "b") for corners in ("", "-yasnac")},
-        "linuxcnc": IsoStyle(
-            "G20",
-            "G21",
-            ("G17 {unit} G40 G49 {offset} G80 G90 G91.1 G94", "G64 P{rounding}"),
-            (6, 5),
-            EntryRule.SQUARE_TO_ITSELF,
-            Radius.DIAMETER,
-        ),
-    }
-)
+STYLE_OF_CONTROL: Final[Mapping[str, IsoStyle]] = {
+    "threeblock": IsoStyle(
+        "G70",
+        "G71",
+        ("G17{unit}G40G90",),
+        (4, 3),
+        EntryRule.SQUARE_TO_NEXT,
+        Radius.DATA,
+        absolute=True,
+        merged=True,
+        comments=False,
+        length=False,
+        spaced=False,
+    ),
+    "rosettacnc:nist": replace(FREE_ENTRY, entry=EntryRule.TANGENT),
+    "rosettacnc:easy": FREE_ENTRY,
+    "rosettacnc:normal": replace(FREE_ENTRY, entry=EntryRule.SQUARE_TO_ITSELF),
+    **{
+        f"nine-series:{kind}{corners}": replace(_NINE_SERIES, corner_code=code)
+        for kind in ("a", "b")
+        for corners, code in (("", "G39"), ("-g39", "G39"), ("-g39.1", "G39.1"))
+    },
+    **{f"fanuc:{kind}{corners}": _FANUC for kind in ("a", "b", "c") for corners in ("", "-arc")},
+    **{f"haas:{kind}{corners}": _FANUC for kind in ("a", "b") for corners in ("", "-yasnac")},
+    "linuxcnc": IsoStyle(
+        "G20",
+        "G21",
+        ("G17 {unit} G40 G49 {offset} G80 G90 G91.1 G94", "G64 P{rounding}"),
+        (6, 5),
+        EntryRule.SQUARE_TO_ITSELF,
+        Radius.DIAMETER,
+    ),
+}
 """The styles, by a control's full name."""
