@@ -10,7 +10,7 @@ from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass, field
 from itertools import combinations, pairwise
 from math import atan2, dist, floor, inf, pi, tau
-from typing import Final, NamedTuple
+from typing import Final, NamedTuple, TypeGuard
 
 import numpy as np
 import shapely
@@ -83,7 +83,7 @@ def reversed_piece(piece: Piece) -> Piece:
     return Arc(piece.end, piece.start, piece.center, Turn(-piece.turn))
 
 
-def is_circle(piece: Piece) -> bool:
+def is_circle(piece: Piece) -> TypeGuard[Arc]:
     """True if a piece is a full circle."""
     return isinstance(piece, Arc) and piece.start == piece.end
 
@@ -91,11 +91,11 @@ def is_circle(piece: Piece) -> bool:
 def _oriented(item: LayeredPiece) -> LayeredPiece:
     """Return the piece from its lower left end; a full circle counterclockwise from its leftmost point."""
     piece = item.piece
-    if isinstance(piece, Arc) and piece.start == piece.end:
-        (x, y), radius = piece.center, piece.radius
-        return item._replace(piece=Arc((x - radius, y), (x - radius, y), (x, y), Turn.CCW))
-    start, end = (tuple(round(value, KEY_DECIMALS) for value in point) for point in (piece.start, piece.end))
-    return item if start <= end else item._replace(piece=reversed_piece(piece))
+    if is_circle(piece):
+        start = (piece.center[0] - piece.radius, piece.center[1])
+        return item._replace(piece=Arc(start, start, piece.center, Turn.CCW))
+    first, last = (tuple(round(value, KEY_DECIMALS) for value in point) for point in (piece.start, piece.end))
+    return item if first <= last else item._replace(piece=reversed_piece(piece))
 
 
 def _key(item: LayeredPiece) -> tuple[float, ...]:
@@ -276,14 +276,12 @@ def _equal_rows(items: Sequence[LayeredPiece], tolerance: float) -> list[list[in
 
 
 def _middle(piece: Piece) -> Point:
-    return piece.center if isinstance(piece, Arc) and is_circle(piece) else piece.point_at(0.5)
+    return piece.center if is_circle(piece) else piece.point_at(0.5)
 
 
 def _difference(first: Piece, second: Piece) -> float:
     """Return how far two pieces are from each other, infinite if one of them is a full circle."""
     if is_circle(first) and is_circle(second):
-        assert isinstance(first, Arc)
-        assert isinstance(second, Arc)
         return dist(first.center, second.center) + abs(first.radius - second.radius)
     if is_circle(first) or is_circle(second):
         return inf

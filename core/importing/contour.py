@@ -8,6 +8,7 @@ from math import atan2, dist, pi
 
 from core.geometry.piece import Arc, Line, Piece, Point, Side, Turn
 from core.importing.arc_fitting import Fitted, fit_arcs
+from core.importing.clean_up import is_circle
 from core.importing.joints import joined_chain, reversed_pieces
 from core.importing.nesting import box_of, signed_area
 from core.importing.nodes import KEY_DECIMALS, SAME_POINT
@@ -92,8 +93,7 @@ class Contour:
     def circle(self) -> float | None:
         """The radius of a contour that is one full circle, None for any other."""
         piece = self.pieces[0]
-        whole = len(self.pieces) == 1 and isinstance(piece, Arc) and piece.start == piece.end
-        return piece.radius if whole and isinstance(piece, Arc) else None
+        return piece.radius if len(self.pieces) == 1 and is_circle(piece) else None
 
 
 def rounded(point: Point) -> tuple[float, float]:
@@ -116,12 +116,10 @@ def started_at_usual_place(contour: Contour) -> Contour:
     """Start a closed contour at the middle of its longest line (or arc), a circle at its leftmost point."""
     if not contour.closed:
         return contour
-    if contour.circle is not None:
-        circle = contour.pieces[0]
-        assert isinstance(circle, Arc)
-        (x, y), radius = circle.center, circle.radius
-        start = (x - radius, y)
-        return replace(contour, pieces=(Arc(start, start, circle.center, circle.turn),))
+    circle = contour.pieces[0]
+    if len(contour.pieces) == 1 and is_circle(circle):
+        start = (circle.center[0] - circle.radius, circle.center[1])
+        return replace(contour, pieces=(replace(circle, start=start, end=start),))
     contour = _undivided(contour)
     lines = [row for row, piece in enumerate(contour.pieces) if isinstance(piece, Line)]
     rows = lines or list(range(len(contour.pieces)))
@@ -174,28 +172,20 @@ def _undivided(contour: Contour) -> Contour:
     first, last = contour.pieces[0], contour.pieces[-1]
     if len(contour.pieces) <= contour.drawn:
         return contour
-    if isinstance(first, Arc) and isinstance(last, Arc):
-        piece: Piece = Arc(last.start, first.end, first.center, first.turn)
-    else:
-        piece = Line(last.start, first.end)
-    return replace(contour, pieces=(piece, *contour.pieces[1:-1]))
+    return replace(contour, pieces=(replace(first, start=last.start), *contour.pieces[1:-1]))
 
 
 def _started_on(contour: Contour, row: int, share: float) -> Contour:
     """Start an undivided closed contour at a fraction of one of its pieces, which is divided there."""
     pieces, piece = contour.pieces, contour.pieces[row]
-    if contour.circle is not None and isinstance(piece, Arc):
+    if contour.circle is not None:
         point = piece.point_at(share)
-        return replace(contour, pieces=(Arc(point, point, piece.center, piece.turn),))
+        return replace(contour, pieces=(replace(piece, start=point, end=point),))
     if min(share, 1.0 - share) * piece.length <= SAME_POINT:
         row = row if share < 0.5 else (row + 1) % len(pieces)
         return replace(contour, pieces=(*pieces[row:], *pieces[:row]))
     middle = piece.point_at(share)
-    if isinstance(piece, Arc):
-        first: Piece = Arc(piece.start, middle, piece.center, piece.turn)
-        second: Piece = Arc(middle, piece.end, piece.center, piece.turn)
-    else:
-        first, second = Line(piece.start, middle), Line(middle, piece.end)
+    first, second = replace(piece, end=middle), replace(piece, start=middle)
     return replace(contour, pieces=(second, *pieces[row + 1 :], *pieces[:row], first))
 
 

@@ -293,14 +293,19 @@ def _directed(contour: Contour) -> Contour:
     return started_at_usual_place(contour)
 
 
-def _with_open_gaps(contours: list[Contour], unit: Unit, tolerance: float) -> list[Contour]:
-    """Give each open contour the distance to the nearest loose end, another contour's or its own."""
-    ends = [
+def _open_ends(contours: Sequence[Contour]) -> list[tuple[Point, int]]:
+    """Return the ends of the open contours, each with the contour's row."""
+    return [
         (end, row)
         for row, contour in enumerate(contours)
         if not contour.closed
         for end in (contour.pieces[0].start, contour.pieces[-1].end)
     ]
+
+
+def _with_open_gaps(contours: list[Contour], unit: Unit, tolerance: float) -> list[Contour]:
+    """Give each open contour the distance to the nearest loose end, another contour's or its own."""
+    ends = _open_ends(contours)
     if not ends:
         return contours
     points = [shapely.Point(end) for end, _ in ends]
@@ -336,12 +341,7 @@ def _rounded_up(gap: float, unit: Unit) -> str:
 
 def _branches(nodes: Sequence[tuple[Point, int]], contours: Sequence[Contour], tolerance: float) -> tuple[Branch, ...]:
     """Return the branches, each with the open contours that end there."""
-    ends = [
-        (end, contour.number)
-        for contour in contours
-        if not contour.closed
-        for end in (contour.pieces[0].start, contour.pieces[-1].end)
-    ]
+    ends = _open_ends(contours)
     if not ends or not nodes:
         return tuple(Branch(at, ways) for at, ways in nodes)
     tree = shapely.STRtree([shapely.Point(end) for end, _ in ends])
@@ -349,5 +349,5 @@ def _branches(nodes: Sequence[tuple[Point, int]], contours: Sequence[Contour], t
     numbers: dict[int, list[int]] = {}
     reach = BRANCH_REACH * max(tolerance, SAME_POINT)
     for branch, end in tree.query(points, predicate="dwithin", distance=reach).T.tolist():
-        numbers.setdefault(branch, []).append(ends[end][1])
+        numbers.setdefault(branch, []).append(contours[ends[end][1]].number)
     return tuple(Branch(at, ways, tuple(sorted(numbers.get(row, ())))) for row, (at, ways) in enumerate(nodes))

@@ -109,10 +109,6 @@ def _no_geometry(drawing: Drawing) -> str:
 
 _SKIPPED_ALWAYS: Final = frozenset({"ATTDEF", "VIEWPORT"})
 
-_CONTOUR_KINDS: Final = frozenset(
-    {"LINE", "ARC", "CIRCLE", "LWPOLYLINE", "POLYLINE", "SPLINE", "ELLIPSE", "INSERT"}
-)  # fmt: skip
-
 
 @dataclass(slots=True)
 class _Reader:
@@ -138,30 +134,20 @@ class _Reader:
         entities = list(self.document.modelspace())
         if len(entities) > MAX_ENTITIES:
             raise too_much("entities", len(entities), MAX_ENTITIES)
-        self._compare(entities, scan)
-        for name, layer in _layer_states(self.document):
-            self.layers[name] = layer
+        in_paper = [entity for layout in self.document.layouts if layout.name != "Model" for entity in layout]
+        self.scanned = scan.blocks
+        self._match(entities, [entity for entity in scan.entities if not entity.paper], in_paper)
+        for layer in self.document.layers:
+            self.layers[str(layer.dxf.name).lower()] = bool(layer.is_frozen()), bool(layer.is_off())
         for number, entity in enumerate(entities):
             if number % STEPS_OF_PROGRESS == 0:
                 self.progress("reading", number, len(entities))
             self._entity(entity, None, None, 0)
-        for layout in self.document.layouts:
-            if layout.name != "Model":
-                self._paper(layout)
-
-    def _paper(self, layout: Iterable[DXFGraphic]) -> None:
-        kinds = Counter(entity.dxftype() for entity in layout)
-        for kind, count in kinds.items():
-            if kind not in _SKIPPED_ALWAYS:
-                self.skipped[f"{kind} in paper space"] += count
-
-    def _compare(self, entities: list[DXFGraphic], scan: Scan) -> None:
-        """Find the line of each entity, and refuse a file from which ezdxf has lost an entity."""
-        self.scanned = scan.blocks
-        in_paper = [entity for layout in self.document.layouts if layout.name != "Model" for entity in layout]
-        self._match(entities, [entity for entity in scan.entities if not entity.paper], in_paper)
+        kinds = (entity.dxftype() for entity in in_paper)
+        self.skipped.update(f"{kind} in paper space" for kind in kinds if kind not in _SKIPPED_ALWAYS)
 
     def _match(self, entities: list[DXFGraphic], scanned: list[ScannedEntity], others: Iterable[Any] = ()) -> None:
+        """Find the line of each entity, and refuse a file from which ezdxf has lost an entity."""
         if not scanned:
             return
         kinds = [entity.dxftype() for entity in entities]
@@ -181,7 +167,7 @@ class _Reader:
 
     def drawing(self, scan: Scan) -> Drawing:
         """Return everything that was read."""
-        notes = [f"{text}" if count == 1 else f"{count} times: {text}" for text, count in self.notes.items()]
+        notes = [text if count == 1 else f"{count} times: {text}" for text, count in self.notes.items()]
         if self.heights and max(self.heights) - min(self.heights) > MAX_FLAT_Z_DIFFERENCE:
             low, high = min(self.heights), max(self.heights)
             notes.append(f"The entities lie at heights from Z {low:g} to {high:g}: Z is dropped.")
@@ -216,19 +202,16 @@ class _Reader:
                 self.skipped[kind] += 1
         elif frozen or (off and kind != "INSERT") or entity.dxf.get("invisible", 0):
             self.hidden[layer] += 1
-        elif kind == "INSERT":
-            self._readable(entity, lambda: self._insert(cast("Insert", entity), matrix, layer, depth))
         else:
-            self._readable(entity, lambda: self._take(entity, matrix, layer))
-
-    def _readable(self, entity: DXFGraphic, read: Callable[[], None]) -> None:
-        """Read an entity; any error is reported as its own."""
-        try:
-            read()
-        except DrawingError:
-            raise
-        except Exception as error:  # noqa: BLE001  # an entity with unforeseen values
-            self._unreadable(entity, words_of(error))
+            try:
+                if kind == "INSERT":
+                    self._insert(cast("Insert", entity), matrix, layer, depth)
+                else:
+                    self._take(entity, matrix, layer)
+            except DrawingError:
+                raise
+            except Exception as error:  # noqa: BLE001  # an entity with unforeseen values
+                self._unreadable(entity, words_of(error))
 
     def _take(self, entity: DXFGraphic, matrix: Matrix44 | None, layer: str) -> None:
         """Take the shapes of an entity."""
@@ -438,12 +421,7 @@ _READERS: Final[Mapping[str, Callable[[_Reader, Any, Matrix44 | None], Iterator[
     "POLYLINE": _Reader.polyline,
     "SPLINE": _Reader.spline,
 }
-
-
-def _layer_states(document: Document) -> Iterator[tuple[str, tuple[bool, bool]]]:
-    """Yield the name of each layer, with whether it is frozen and whether it is off."""
-    for layer in document.layers:
-        yield str(layer.dxf.name).lower(), (bool(layer.is_frozen()), bool(layer.is_off()))
+_CONTOUR_KINDS: Final = frozenset({*_READERS, "INSERT"})
 
 
 def _is_clipped(insert: Insert) -> bool:

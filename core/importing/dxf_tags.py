@@ -168,15 +168,11 @@ def _tags(lines: list[bytes], scan: Scan) -> Iterator[Tag]:
         except ValueError:
             scan.bad_line = row + 1
             return
-        value = lines[row + 1]
-        if code == 0:
-            # the name of an entity may have blanks around it
-            text = value.strip().decode("latin-1")
-            yield Tag(0, text, row + 1)
-            if text == "EOF":
-                return
-        else:
-            yield Tag(code, value.strip().decode("latin-1"), row + 1)
+        # the name of an entity may have blanks around it
+        value = lines[row + 1].strip().decode("latin-1")
+        yield Tag(code, value, row + 1)
+        if (code, value) == (0, "EOF"):
+            return
 
 
 @dataclass(slots=True)

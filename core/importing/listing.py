@@ -37,13 +37,13 @@ class Row:
         return self.contours[0]
 
 
-def rows_of(contours: Sequence[Contour], *, folded: bool = True) -> tuple[Row, ...]:
+def rows_of(contours: Sequence[Contour]) -> tuple[Row, ...]:
     """Return the rows of the list, in its order."""
     rows: dict[object, list[Contour]] = {}
     for contour in contours:
         radius = contour.circle
         key: object = contour.number
-        if folded and radius is not None and not contour.problems:
+        if radius is not None and not contour.problems:
             key = (round(radius / SAME_SIZE), contour.kind, contour.layers, contour.inside)
         rows.setdefault(key, []).append(contour)
     return tuple(Row(tuple(row)) for row in rows.values())

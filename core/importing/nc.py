@@ -16,7 +16,7 @@ from core.controls.contours_and_leads import split_where_it_closes
 from core.controls.control_names import display_name
 from core.controls.control_run import ControlRun, Stretch
 from core.controls.control_tools import ToolTable
-from core.controls.moves import Moves, Plane
+from core.controls.moves import Moves, Plane, runs_of
 from core.controls.registry import UnknownControl, run
 from core.finding import Severity
 from core.geometry.construct import even_arc
@@ -182,17 +182,8 @@ def _center_passes(result: ControlRun, center: CenterPathTool) -> Iterator[NcCon
 
 def _feed_runs(moves: Moves) -> Iterator[tuple[int, int]]:
     """Yield the rows (of the start, after the last) of feed moves in XY with no rapid or plunge between them."""
-    begin: int | None = None
-    for index in range(1, len(moves) + 1):
-        inside = False
-        if index < len(moves):
-            move, before = moves[index], moves[index - 1]
-            inside = not move.rapid and (move.point[:2] != before.point[:2] or move.turn != 0)
-        if inside and begin is None:
-            begin = index - 1
-        elif not inside and begin is not None:
-            yield begin, index
-            begin = None
+    for rows in runs_of(moves.moving_in(Plane.XY) & ~moves.rapid):
+        yield int(rows[0]) - 1, int(rows[-1]) + 1
 
 
 def _grouped(passes: Sequence[NcContour]) -> list[NcContour]:

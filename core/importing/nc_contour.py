@@ -144,7 +144,7 @@ def _typed(value: float, unit: Unit, decimals: int) -> Number:
 
 def _with_depths(block: Block, contour: NcContour, unit: Unit, notes: list[str]) -> Block:
     """Set Z BOTTOM to the lowest depth, and PECK DEPTH to the step between depths if it is even."""
-    falling = [depth for depth in dict.fromkeys(round(depth, 4) for depth in contour.depths)]
+    falling = list(dict.fromkeys(round(depth, 4) for depth in contour.depths))
     bottom = min(falling)
     block = replace(block, z_bottom=_typed(bottom, unit, 4))
     steps = [above - below for above, below in pairwise(falling)]

@@ -531,7 +531,7 @@ def test_equal_circles_fold_into_one_row() -> None:
     drawing = listed(dxf(*square(0, 0, 50), *(circle((10 + 5 * k, 10), 1) for k in range(6)), circle((10, 40), 2)))
     rows = rows_of(drawing.contours)
     assert [len(row.contours) for row in rows] == [1, 1, 6]
-    assert len(rows_of(drawing.contours, folded=False)) == 8
+    assert len(drawing.contours) == 8
     assert len(matching(drawing.contours, "hole", Unit.MM)) == 7
 
 
