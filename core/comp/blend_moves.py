@@ -57,14 +57,16 @@ def past_start(path: Path, overlap: float) -> Path:
     A contour counts as closed even with a small gap between its ends, and so does its path; the overlap then begins
     with a straight move to the path's start.
     """
-    gap = abs(_gap(path)) if len(path) else inf
+    gap = abs(complex(*(path.points[-1] - path.points[0]).tolist())) if len(path) else inf
     if overlap <= JOINED or gap > _AT_ITS_START:
         return EMPTY
     pieces, left = [], overlap
     for piece in path:
         if left <= JOINED:
             break
-        pieces.append(piece if piece.length <= left + JOINED else _beginning(piece, left))
+        pieces.append(
+            piece if piece.length <= left + JOINED else replace(piece, end=piece.point_at(left / piece.length))
+        )
         left -= piece.length
     numbers = path.numbers[: len(pieces)].tolist()
     if gap > JOINED:
@@ -72,19 +74,9 @@ def past_start(path: Path, overlap: float) -> Path:
     return Path.from_pieces([_from(path[-1].end, pieces[0]), *pieces[1:]], numbers)
 
 
-def _gap(path: Path) -> complex:
-    (x, y), (x_start, y_start) = path.points[-1].tolist(), path.points[0].tolist()
-    return complex(x - x_start, y - y_start)
-
-
 def _from(start: Point, piece: Piece) -> Piece:
     """Return the same piece from a start that is the same point within rounding; full circles stay full."""
     return replace(piece, start=start, end=start if piece.end == piece.start else piece.end)
-
-
-def _beginning(piece: Piece, length: float) -> Piece:
-    """Return the first `length` millimeters of a piece that is longer."""
-    return replace(piece, end=piece.point_at(length / piece.length))
 
 
 def _quarter(at: Point, outer: complex, along: complex, side: Side, blend: float) -> tuple[Point, Point]:

@@ -12,12 +12,12 @@ import numpy as np
 
 from core.comp import findings
 from core.comp.blend_moves import blend_in, blend_out
-from core.comp.compensated import Compensated, Deletions
+from core.comp.compensated import Compensated
 from core.comp.crossings import Candidates, crossings
 from core.comp.offset import RawChain, offset
 from core.comp.prune import prune
 from core.finding import Finding
-from core.geometry.path import EMPTY, Path, as_complex
+from core.geometry.path import Path, as_complex
 from core.geometry.piece import Arc, Piece, Side
 from core.tolerance import JOINED
 
@@ -64,7 +64,7 @@ class OffsetContour:
         """Return the contour's path at this look-ahead, no larger than the largest one that `offset_contour` got."""
         chain, candidates = self.chain, self.candidates
         if chain is None or candidates is None:
-            return self._without_path(lookahead)
+            return Compensated(self.contour, self.side, self.radius, lookahead, self.closed, self.findings)
         last_wins = self.closed and len(self.contour) == 2
         pruned = prune(chain, candidates.joints, candidates.within(lookahead), last_wins=last_wins)
         path_findings = findings.bridge_findings(self.contour, chain, pruned, self.radius)
@@ -86,23 +86,6 @@ class OffsetContour:
             lead_in=blend_in(pruned.path, self.side, blend),
             lead_out=blend_out(pruned.path, self.side, blend, overlap, closed=self.closed),
             findings=(*self.findings, *path_findings),
-        )
-
-    def _without_path(self, lookahead: int) -> Compensated:
-        return Compensated(
-            contour=self.contour,
-            side=self.side,
-            radius=self.radius,
-            lookahead=lookahead,
-            closed=self.closed,
-            raw=EMPTY,
-            tested=0,
-            path=EMPTY,
-            bridged=np.empty(0, np.bool_),
-            deleted=Deletions(np.empty(0), np.empty((0, 2)), np.empty((0, 2))),
-            lead_in=EMPTY,
-            lead_out=EMPTY,
-            findings=self.findings,
         )
 
 

@@ -3,13 +3,13 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
-from dataclasses import dataclass
+from dataclasses import dataclass, field
+from typing import Final
 
 import numpy as np
-from numpy.typing import NDArray
 
 from core.finding import Finding
-from core.geometry.path import EMPTY, Floats, Path, joined
+from core.geometry.path import EMPTY, Flags, Floats, Path, joined
 from core.geometry.piece import Point, Side
 
 
@@ -36,6 +36,9 @@ class Deletions:
     def __iter__(self) -> Iterator[Deleted]:
         rows = zip(self.segments.tolist(), self.by.tolist(), self.at.tolist(), strict=True)
         return (Deleted(segment, (a, b), (x, y)) for segment, (a, b), (x, y) in rows)
+
+
+NO_DELETIONS: Final = Deletions(np.empty(0), np.empty((0, 2)), np.empty((0, 2)))
 
 
 @dataclass(frozen=True, eq=False, slots=True)
@@ -74,14 +77,14 @@ class Compensated:
     radius: float
     lookahead: int
     closed: bool
-    raw: Path
-    tested: int
-    path: Path
-    bridged: NDArray[np.bool_]
-    deleted: Deletions
-    lead_in: Path
-    lead_out: Path
     findings: tuple[Finding, ...]
+    raw: Path = EMPTY
+    tested: int = 0
+    path: Path = EMPTY
+    bridged: Flags = field(default_factory=lambda: np.empty(0, np.bool_))
+    deleted: Deletions = NO_DELETIONS
+    lead_in: Path = EMPTY
+    lead_out: Path = EMPTY
 
     @property
     def whole(self) -> Path:

@@ -15,7 +15,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from core.comp.compensated import Deletions
+from core.comp.compensated import NO_DELETIONS, Deletions
 from core.comp.crossings import Crossings
 from core.comp.offset import RawChain, RawPart
 from core.geometry.path import EMPTY, Flags, Floats, Path, Points, Rows, as_complex, coordinates
@@ -172,7 +172,7 @@ def _not_slivers(chain: RawChain, left: _Left, alive: Rows, starts: Points) -> F
 def _deletions(chain: RawChain, others: Crossings, met: Rows, gone: Flags) -> Deletions:
     """Return the deleted segments, each with the first event, a row in `met`, that spans it."""
     if not len(met):
-        return Deletions(np.empty(0), np.empty((0, 2)), np.empty((0, 2)))
+        return NO_DELETIONS
     deleted = gone.nonzero()[0]
     deleted = deleted[chain.half_steps[deleted] % 2 == 0]
     a, b = others.a[met], others.b[met]

@@ -77,15 +77,16 @@ class StandingWall:
 def closed_passes_of(path: Path, contours: Sequence[RowRange], heights: Floats) -> list[ClosedPass]:
     """Return the passes of the closed contours; `heights` (n, 2) has those of both ends of each piece of the path."""
     return [
-        ClosedPass(path.part(first, last), _region(path.part(first, last)), *_range(heights[first:last]))
+        ClosedPass(
+            path.part(first, last),
+            _region(path.part(first, last)),
+            float(heights[first:last].min()),
+            float(heights[first:last].max()),
+        )
         for contour in contours
         if is_closed(path, contour)
         for first, last in closed_passes(path, contour)
     ]
-
-
-def _range(heights: Floats) -> tuple[float, float]:
-    return float(heights.min()), float(heights.max())
 
 
 def _region(path: Path) -> Polygon:

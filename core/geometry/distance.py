@@ -118,8 +118,9 @@ def farthest_fractions(pieces: PieceArrays, other: PieceArrays) -> Floats:
 
     They are the feet, their antipodes, and the points equally far from an arc partner's two ends.
     """
-    even = by_kind(other.arcs, _no_fractions, _equidistant_fractions, pieces, other)
-    opposite = by_kind(pieces.arcs, _no_antipodes, _antipodes, pieces, other)
+    count = len(pieces)
+    even = by_kind(other.arcs, lambda: np.zeros((4, count)), lambda: _equidistant_fractions(pieces, other))
+    opposite = by_kind(pieces.arcs, lambda: np.zeros((2, count)), lambda: _antipodes(pieces, other))
     return _clamped(np.concatenate((feet(pieces, other), opposite, even)))
 
 
@@ -170,16 +171,12 @@ def _clipped(t: Floats) -> Floats:
 
 
 def _crossings(pieces: PieceArrays, other: PieceArrays) -> Floats:
-    met: Floats = by_kind(other.arcs, _crossing_line, _crossing_arc, pieces, other)
+    met: Floats = by_kind(
+        other.arcs,
+        lambda: on_line(pieces, other.start, other.unit),
+        lambda: on_circle(pieces, other.center, other.radius),
+    )
     return met
-
-
-def _crossing_line(pieces: PieceArrays, line: PieceArrays) -> Floats:
-    return on_line(pieces, line.start, line.unit)
-
-
-def _crossing_arc(pieces: PieceArrays, arc: PieceArrays) -> Floats:
-    return on_circle(pieces, arc.center, arc.radius)
 
 
 def feet(pieces: PieceArrays, other: PieceArrays) -> Floats:
@@ -204,18 +201,10 @@ def _antipodes(arc: PieceArrays, other: PieceArrays) -> Floats:
     return traveled(arc, directions) / arc.angle
 
 
-def _no_antipodes(line: PieceArrays, _other: PieceArrays) -> Floats:
-    return np.zeros((2, len(line)))
-
-
 def _equidistant_fractions(pieces: PieceArrays, arc: PieceArrays) -> Floats:
     middle = arc.arm / arc.radius * np.exp(0.5j * arc.turn * arc.angle)
     fractions = on_line(pieces, arc.center, middle)
     return np.concatenate((fractions, fractions))
-
-
-def _no_fractions(pieces: PieceArrays, _other: PieceArrays) -> Floats:
-    return np.zeros((4, len(pieces)))
 
 
 def between(pieces: PieceArrays, other: PieceArrays, fractions: Floats) -> Floats:

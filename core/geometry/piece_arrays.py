@@ -188,27 +188,18 @@ def blocks(first: Flags, second: Flags) -> Iterator[Rows]:
 
 def at(pieces: PieceArrays, t: Floats) -> Points:
     """Return the (..., n) points at the fractions `t` (..., n) of each piece."""
-    points: Points = by_kind(pieces.arcs, _line_at, _arc_at, pieces, t)
-    return points
-
-
-def _line_at(line: PieceArrays, t: Floats) -> Points:
-    return line.start + t * line.vector
-
-
-def _arc_at(arc: PieceArrays, t: Floats) -> Points:
-    points: Points = arc.center + arc.arm * np.exp(1j * (arc.turn * arc.angle) * t)
+    points: Points = by_kind(
+        pieces.arcs,
+        lambda: pieces.start + t * pieces.vector,
+        lambda: pieces.center + pieces.arm * np.exp(1j * (pieces.turn * pieces.angle) * t),
+    )
     return points
 
 
 def direction(pieces: PieceArrays, t: Floats) -> Points:
     """Return the (n,) unit tangents at the fractions `t` (n,)."""
-    units: Points = by_kind(pieces.arcs, _line_direction, _arc_direction, pieces, t)
+    units: Points = by_kind(pieces.arcs, lambda: pieces.unit + 0.0 * t, lambda: _arc_direction(pieces, t))
     return units
-
-
-def _line_direction(line: PieceArrays, t: Floats) -> Points:
-    return line.unit + 0.0 * t
 
 
 def _arc_direction(arc: PieceArrays, t: Floats) -> Points:

@@ -28,6 +28,10 @@ from core.tolerance import GOUGE, JOINED, WHISKER
 MAX_LOOPS: Final = 10_000
 """More loops than any real part has: such a scribble is refused."""
 
+NO_PATH: Final = Finding("NO_PATH", Severity.ERROR, "The tool does not fit: there is no best path.")
+_TANGLED_TEXT: Final = "The contour overlaps itself too often; no best path is calculated."
+TANGLED: Final = Finding("TANGLED", Severity.ERROR, _TANGLED_TEXT)
+
 
 @dataclass(frozen=True, eq=False, slots=True)
 class BestPath:
@@ -59,7 +63,7 @@ def best_path(contour: Path, side: Side, radius: float, *, closed: bool) -> Best
     del untrimmed
     cut = sliced(raw, side.sign)
     if cut is None:
-        return BestPath((), (), (*findings, _tangled()))
+        return BestPath((), (), (*findings, TANGLED))
     walls = Walls.of(surface.path)
     cut = clear_slices(raw, cut, walls, radius)
     made = stitch(raw, cut, side.sign, walls, radius)
@@ -70,10 +74,10 @@ def _best(raw: RawOffset, made: StitchedSlices, surface: PreparedContour, findin
     """Return the best path: the loops longer than rounding, with their findings."""
     walked = [(rows, ring) for rows, ring in chains(made) if not _is_rounding(made, rows)]
     if len(walked) > MAX_LOOPS:
-        return BestPath((), (), (*findings, _tangled()))
+        return BestPath((), (), (*findings, TANGLED))
     loops = tuple(path_of_slices(raw, made, rows, surface.origin) for rows, _ in walked)
     if not loops:
-        return BestPath((), (), (*findings, _no_path()))
+        return BestPath((), (), (*findings, NO_PATH))
     rows = np.concatenate([rows for rows, _ in walked])
     notes = (*_joined(raw, made, rows, surface), *_broken(raw, made, rows, surface))
     return BestPath(loops, tuple(ring for _, ring in walked), (*findings, *notes))
@@ -82,16 +86,6 @@ def _best(raw: RawOffset, made: StitchedSlices, surface: PreparedContour, findin
 def _is_rounding(made: StitchedSlices, rows: Rows) -> bool:
     """True if these slices are so short that rounding made them; the limit is larger where it left gaps in them."""
     return float(made.cut.size[rows].sum()) <= (WHISKER if (made.gaps[rows] > JOINED).any() else GOUGE)
-
-
-def _no_path() -> Finding:
-    text = "The tool does not fit: there is no best path."
-    return Finding("NO_PATH", Severity.ERROR, text)
-
-
-def _tangled() -> Finding:
-    text = "The contour overlaps itself too often; no best path is calculated."
-    return Finding("TANGLED", Severity.ERROR, text)
 
 
 def _crossing(numbers: tuple[float, float]) -> Finding:

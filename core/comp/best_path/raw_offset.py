@@ -166,18 +166,12 @@ def _without_cusps(chain: RawChain, surface: Path, side: Side) -> RawChain:
     back = (there + 1) % len(surface)
     first, last = points[corners] - centers[corners], points[corners + 1] - centers[corners]
     bend = first.conj() * last
-    sizes, curvature = surface.lengths, _curvature(surface)
+    sizes, curvature = surface.lengths, surface.turns / np.where(surface.turns == 0, 1.0, surface.radii)
     before = np.minimum(sizes[there], sizes[back]) / 4.0
     aside = bend.imag / np.abs(bend) * before - (curvature[there] + curvature[back]) * before**2 / 2.0
     parts = chain.parts.copy()
     parts[corners[side.sign * aside > JOINED]] = RawPart.BRIDGE.value
     return RawChain(chain.raw, parts, chain.half_steps)
-
-
-def _curvature(path: Path) -> Floats:
-    """Return the curvatures of pieces, positive to the left, 0 for a line."""
-    curvature: Floats = path.turns / np.where(path.turns == 0, 1.0, path.radii)
-    return curvature
 
 
 def _both_sides(there: RawChain, back: RawChain, shift: int) -> RawChain:

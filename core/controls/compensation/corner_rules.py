@@ -9,7 +9,7 @@ offsets extended by the radius.  Entries, exits and changes of the radius are jo
 from __future__ import annotations
 
 from enum import Enum, auto
-from math import hypot, pi
+from math import dist, hypot, pi
 from typing import Final, NamedTuple
 
 from core.controls.compensation.elements import (
@@ -124,14 +124,10 @@ def corner_kind(first: Element, second: Element, offset: float, rules: CornerRul
         hooked = rules.hooks and (second.turn or first.turn) * offset < 0.0
         return CornerKind.INSIDE if hooked else CornerKind.OUTSIDE
     if abs(inward) <= rules.tangent or (
-        rules.touching and _near(offset_end(first, offset), offset_start(second, offset), rules.touching)
+        rules.touching and dist(offset_end(first, offset), offset_start(second, offset)) <= rules.touching
     ):
         return CornerKind.TANGENT
     return CornerKind.INSIDE if inward > 0.0 else CornerKind.OUTSIDE
-
-
-def _near(a: Point, b: Point, within: float) -> bool:
-    return hypot(a[0] - b[0], a[1] - b[1]) <= within
 
 
 def join(first: Element, second: Element, offset: float, rules: CornerRules) -> Joint:
@@ -147,7 +143,7 @@ def join(first: Element, second: Element, offset: float, rules: CornerRules) -> 
         if point is None:
             return Joint(end, start, corner=kind, missed=True)
         # offsets that are nearly tangent, as those of two arcs of one circle, meet anywhere along each other
-        if _near(end, start, LEAST_INCREMENT) and not _near(end, point, LEAST_INCREMENT):
+        if dist(end, start) <= LEAST_INCREMENT < dist(end, point):
             point = end
         return Joint(point, point, corner=kind)
     return _outside(first, second, offset, rules)._replace(corner=kind)

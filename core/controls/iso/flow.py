@@ -453,14 +453,10 @@ class OWordFlow(Flow):
     def _begin_of(self, label: str, line: int) -> OWord | None:
         """Return where a subprogram begins in the main file, or in a file added for the line that makes this call."""
         caller = self.origin_of(line)[0]
-        return next(
-            (
-                other
-                for other in self._begins_of(label)
-                if other.row < self.main_lines or self.origin_of(other.row + 1)[0] == caller
-            ),
-            None,
-        )
+        for begin in self._begins_of(label):
+            if begin.row < self.main_lines or self.origin_of(begin.row + 1)[0] == caller:
+                return begin
+        return None
 
     def _evaluated_label(self, word: OWord) -> str:
         reader = ExpressionReader(word.line.text, self.values, word.line.text.index("O") + 1)
@@ -482,21 +478,14 @@ class OWordFlow(Flow):
         return self.calls.pop().back
 
     def _if(self, word: OWord) -> int:
+        """Open the branch that runs, and return the index of its first line."""
         self._claim_label(word)
-        if self._value(word):
-            self._opened[word.label] = OpenBlock("IF", word.row)
-            return word.row + 1
-        return self._other_branch(word)
-
-    def _other_branch(self, word: OWord) -> int:
-        """Open the branch that runs if a condition is false, and return the index of its first line."""
-        while True:
+        while word.word != "ELSE" and not self._value(word):
             word = self._seek(word, "ELSEIF", "ELSE", "ENDIF")
             if word.word == "ENDIF":
                 return word.row + 1
-            if word.word == "ELSE" or self._value(word):
-                self._opened[word.label] = OpenBlock("IF", word.row)
-                return word.row + 1
+        self._opened[word.label] = OpenBlock("IF", word.row)
+        return word.row + 1
 
     def _end_branch(self, word: OWord) -> int:
         """Leave a branch that ran, and return the index of the line after its ENDIF."""

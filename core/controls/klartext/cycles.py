@@ -71,7 +71,10 @@ def cycle(state: State, block: Block) -> None:
     elif number in _OLD_CYCLES and head[3] == "0":
         pass  # only the cycle's name; what it does comes in the blocks after it
     elif number in (7, 8, 10) and (head[3] or number == 7):
-        _move_datum(state, rest, number, written=head[3] is not None)
+        if number != 7:
+            _transform(state, rest, number)
+        elif head[3]:
+            shift(state, rest)
     elif number in _NEUTRAL and _is_neutral(state, block, number, rest.body):
         text = f"Cycle {number} is skipped: these values turn, mirror and scale nothing."
         state.tell(Severity.INFO, "IGNORED", text, block)
@@ -83,14 +86,6 @@ def cycle(state: State, block: Block) -> None:
         state.stop("BEYOND", text, block)
     else:
         _define(state, block, number)
-
-
-def _move_datum(state: State, block: Block, number: int, *, written: bool) -> None:
-    """A line of cycle 7, 8 or 10; `written`: its number has the line's after a point."""
-    if number != 7:
-        _transform(state, block, number)
-    elif written:
-        shift(state, block)
 
 
 def _transform(state: State, block: Block, number: int) -> None:

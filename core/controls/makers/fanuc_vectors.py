@@ -308,9 +308,8 @@ class VectorQueue(Recorder):
 
     def end_square(self) -> None:
         """Run the held element to its square end; the next element starts there."""
-        held, self.held = self.held, None
-        if held is not None:
-            self._release(held, [offset_end(held.element, held.offset)])
+        if self.held is not None:
+            self.end_at(offset_end(self.held.element, self.held.offset))
 
     def end_at(self, point: Point) -> None:
         """Run the held element to a point."""
@@ -322,14 +321,12 @@ class VectorQueue(Recorder):
         """Run a straight move that turns compensation off; a vector of I, J, K shifts the last element's end."""
         if element.turn:
             self._no_arc(element, self.alarms.arc_off)
-        held = self.held
-        if held is not None:
-            self._run_to_cancel(held, element, vector)
+        if self.held is not None:
+            self._run_to_cancel(self.held, element, vector)
         self.stop_compensation()
         super().travel(element)
 
     def _run_to_cancel(self, held: Held, element: Element, vector: Point | None) -> None:
-        self.held = held
         if vector is not None:
             self.end_at(vector_meeting(held.element, vector, held.offset))
             return
