@@ -259,7 +259,7 @@ class ToolsScreen(FormScreen):
         tool = _next_tool(program)
         if self.host.apply(set_tool(program, tool), f"ADD TOOL {tool.number}"):
             row = [each.number for each in self.current_session.program.tools].index(tool.number)
-            self.call_later(self._focus_row, row, "diameter")
+            self.call_next(self._focus_row, row, "diameter")
             self.say(f"Tool {tool.number} added. Type its DIAMETER. Shift+Tab goes back to its number.")
 
     def action_delete_tool(self) -> None:
