@@ -93,7 +93,8 @@ class Call:
 
     `label` is that of a subprogram called by an O-word, None for the program.  A subprogram called by M98 has its
     `number`, the index of its `start` and how often it runs `again`; it shares its caller's `label` and `opened`.
-    `loops` are the rows of the open WHILE and DO loops by number; `macro`: it has variables of its own.
+    `loops` are the rows of the open WHILE and DO loops by number; `macro`: it has variables of its own.  No condition
+    in it came closer to its end for `rows_without_progress`; `least_differences` are the closest so far.
     """
 
     back: int
@@ -104,6 +105,8 @@ class Call:
     again: int = 0
     loops: dict[int, int] = field(default_factory=dict)
     macro: bool = False
+    rows_without_progress: int = 0
+    least_differences: dict[tuple[int, int], float] = field(default_factory=dict)
 
 
 def o_words_of(lines: Sequence[str], first: int = 0) -> dict[int, OWord]:

@@ -43,8 +43,12 @@ MAX_ROWS_WITHOUT_MOVEMENT: Final = 100_000
 MAX_ROWS_WITHOUT_PROGRESS: Final = 20_000
 """Rows after which a program counts as endless; a row's first run does not count.
 
-The rows without progress may be more by the rows of the program, since a subprogram runs that long without any loop.
+The rows without progress may be more by the rows and calls of the program, since a subprogram runs that long without
+any loop.
 """
+
+ROWS_OF_CALL: Final = 10
+"""Rows without progress for which a call counts in the program that makes it, however long it runs."""
 
 BUILDER_PROGRAMS: Final = range(9000, 10_000)
 """Program numbers that usually belong to the machine builder, as for a probe or the tool changer."""
@@ -139,8 +143,6 @@ class MacroFlow(Flow):
         self.no_point: list[tuple[str, int, int]] = []
         self.rows_run_again = 0
         self.rows_without_movement = 0
-        self.rows_without_progress = 0
-        self.least_differences: dict[tuple[int, int], float] = {}
         self.tape_length = 0
         kept, self.line_before, self.unread_line = _between_percents(lines)
         self._append(kept, 1)
@@ -269,11 +271,12 @@ class MacroFlow(Flow):
         if self.ran[line - 1]:
             self.rows_without_movement += 1
             self.rows_run_again += 1
-            self.rows_without_progress += 1
+            self.calls[-1].rows_without_progress += 1
         self.ran[line - 1] = True
-        if self.rows_without_progress > MAX_ROWS_WITHOUT_PROGRESS + len(self.lines):
+        rows_without_progress = self.calls[-1].rows_without_progress
+        if rows_without_progress > MAX_ROWS_WITHOUT_PROGRESS + (1 + ROWS_OF_CALL) * len(self.lines):
             text = (
-                f"The program does not end: in the last {self.rows_without_progress} blocks no condition of a loop or "
+                f"The program does not end: for {rows_without_progress} blocks or more, no condition of a loop or "
                 "a jump came closer to its end. cutcomp stops here."
             )
             self.log.stop("LIMIT", text, self.numbers[line - 1], 1)
@@ -286,21 +289,22 @@ class MacroFlow(Flow):
 
         Conditions inside its loop then start afresh.  A condition that compares nothing always resets the count.
         """
+        call = self.calls[-1]
         for index, difference in enumerate(differences):
             condition = (row, index)
-            least = self.least_differences.get(condition)
+            least = call.least_differences.get(condition)
             if least is not None and difference < least:
                 # conditions evaluated since the last time this one was are inside its loop
-                order = list(self.least_differences)
+                order = list(call.least_differences)
                 for inside in order[order.index(condition) :]:
-                    del self.least_differences[inside]
+                    del call.least_differences[inside]
             if least is None or difference < least:
-                self.rows_without_progress = 0
+                call.rows_without_progress = 0
                 least = difference
-            self.least_differences.pop(condition, None)
-            self.least_differences[condition] = least
+            call.least_differences.pop(condition, None)
+            call.least_differences[condition] = least
         if not differences:
-            self.rows_without_progress = 0
+            call.rows_without_progress = 0
 
     def ends_here(self, _line: int, /) -> bool:
         """True if the next row is outside the program that runs: nothing has called what follows."""
@@ -626,6 +630,7 @@ class MacroFlow(Flow):
         return self.starts_of_called[number, caller]
 
     def _push(self, start: int, times: int, arguments: Mapping[int, float] | None) -> None:
+        self.calls[-1].rows_without_progress += ROWS_OF_CALL
         call = Call(self.at, number=0, start=start, again=times - 1, macro=arguments is not None)
         self.calls.append(call)
         if arguments is not None:
@@ -661,12 +666,11 @@ class MacroFlow(Flow):
     def _return(self, block: Block) -> bool:
         """Follow M99, with P to a block of the calling program; False if it ends the run."""
         call, target = self.calls[-1], block.words.get("P")
-        if len(self.calls) > 1:
-            # the conditions of the next call begin at their first values again
-            self.rows_without_progress = 0
-            self.least_differences.clear()
         if target is None and (call.again or len(self.calls) == 1):
             call.loops = {}
+            # the conditions of the next call begin at their first values again
+            call.rows_without_progress = 0
+            call.least_differences.clear()
             return super()._return(block)
         if len(self.calls) > 1:
             if call.macro:

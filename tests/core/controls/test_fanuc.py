@@ -561,6 +561,9 @@ def test_an_endless_loop_without_movement_is_stopped(loop: str) -> None:
         "N1 #1=#1+1\nG1 X#1 F10.\nIF[#1GT0]GOTO1",
         "#1=5\nWHILE[#1NE0]DO1\n#1=#1-2\nG1 X#1 F10.\nEND1",
         "WHILE[#1LT10]DO1\n#2=0\nWHILE[#2LT5]DO2\n#2=#2+1\nG1 X#2 F10.\nEND2\nEND1",
+        "N1 M98 P2\nGOTO1\nM30\nO2\nG1 X1. F10.\nX2.\nM99",
+        "N1 M98 P2\nM30\nO2\nG1 X1. F10.\nX2.\nM99 P1",
+        "N1 M98 P2 L2\nGOTO1\nM30\nO2\n#1=0\nWHILE[#1LT3]DO1\n#1=#1+1\nG1 X#1 F10.\nEND1\nM99",
     ],
 )
 def test_an_endless_loop_with_movement_is_stopped_when_no_condition_gets_closer_to_its_end(loop: str) -> None:
