@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
 from itertools import accumulate, pairwise
 from typing import Final
@@ -10,7 +10,6 @@ from typing import Final
 import numpy as np
 
 from core.controls.contours_and_leads import (
-    MAX_LEAD_MOVES,
     RowRange,
     between_lead_arcs,
     blend_leads,
@@ -25,34 +24,22 @@ from core.controls.corner_loops import CornerLoop, without_corner_loops
 from core.controls.crossing_contours import ContourCut, cuts_of_other_contours
 from core.controls.moves import Moves, Plane, runs_of
 from core.controls.moves_above import Z_COLUMN, Divided, divided, heights_above
-from core.controls.rapids_at_depth import CutContour, UncompensatedCut, highest_cut, moves_through, rapid_walls
+from core.controls.rapids_at_depth import CutContour, UncompensatedCut, highest_cut, moves_through
 from core.controls.registry import arc_tolerance
 from core.controls.repeated_passes import path_key, without_repeats
 from core.controls.standing_walls import ClosedPass, StandingWall, closed_passes_of, standing_walls
-from core.finding import Finding, Severity
 from core.geometry.nearby import BoxTree, near_pairs
 from core.geometry.path import Floats, Path, Rows, joined
 from core.progress import Progress, silent
 from core.progress import part as part_of
-from core.tolerance import ARC_RADII, GOUGE, ON_PATH, ROUNDING, SMALLEST_SHOWN_LENGTH
+from core.tolerance import ARC_RADII, GOUGE, ON_PATH
 from core.units import Kind, Unit, decimals_shown, to_mm
-from core.verify.air_cuts import AirCut, air_cuts
 from core.verify.judge import judge
-from core.verify.report import LAST_INCH_DIGIT, contact_findings, enumerated, or_more
 from core.verify.surface import Leads
-from core.verify.verdict import Gouge, OverRun, Verdict
-
-MAX_GOUGES: Final = 20
-"""Most gouges of a result that get a finding each, deepest first."""
+from core.verify.verdict import Gouge, Verdict
 
 JUDGING_SHARE: Final = 0.8
 """Progress when every stretch is judged; comparing their contours with one another takes the rest."""
-
-MAX_LINES: Final = 6
-"""Most line numbers that one finding lists."""
-
-CAM_ROUNDING: Final = 0.0127 + ROUNDING
-"""Millimeters (0.0005 in) of tolerance that a CAM system's rounding explains; more may hide a gouge."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -531,326 +518,29 @@ def _most_uneven(slack: float, *paths: Path) -> ToleratedArc | None:
         apart = np.where(path.turns != 0, np.abs(last - first), 0.0)
         row = int(apart.argmax()) if len(apart) else 0
         if len(apart) and apart[row] > difference:
-            line, difference = _line(path.numbers[row]), apart[row]
+            line, difference = line_of(path.numbers[row]), apart[row]
             worst = ToleratedArc(float(first[row]), float(last[row]), line, slack)
     return worst
-
-
-def judged_findings(results: tuple[Judged, ...]) -> tuple[Finding, ...]:
-    """Return findings with lines: gouges, wrong sides and unjudged paths are errors, the rest warnings or notes."""
-    gouged = {gouge.surface_number for result in results for gouge in result.verdict.gouges}
-    uneven = _uneven_arcs(results)
-    return (
-        _unseen(results)
-        + _rapid_walls(results)
-        + tuple(
-            _with_axes(finding, result.stretch.plane)
-            for result in results
-            for finding in (
-                *_by_itself(result),
-                *_above(result),
-                *_uneven_arc(uneven.get(result)),
-                *_cuts(result),
-                *_open_contour(result, gouged),
-                *_cut_away(result),
-                *_leads(result),
-                *_corner_loops(result),
-                *_contact(result),
-                *_uncut(result),
-                *_crossing(result),
-                *_uncompensated(result),
-                *_cuts_of_others(result),
-            )
-        )
-    )
-
-
-def _with_axes(finding: Finding, plane: Plane) -> Finding:
-    """Return the finding with the names of a plane's axes in its text."""
-    first, second, _ = ("XYZ"[axis] for axis in plane.axes)
-    return replace(finding, text=finding.text.replace("X {x} Y {y}", f"{first} {{x}} {second} {{y}}"))
-
-
-def _unseen(results: tuple[Judged, ...]) -> tuple[Finding, ...]:
-    """Return one finding that counts the gouges too shallow for a digit, if any."""
-    count = sum(result.unseen_gouges for result in results)
-    if not count:
-        return ()
-    gouges = "1 gouge is" if count == 1 else f"{count} gouges are"
-    text = f"{gouges} less than half the last digit that a control shows (0.00005 in, 0.0005 mm) and not counted."
-    return (Finding("DIGIT", Severity.INFO, text),)
 
 
 def deepest_gouge(results: tuple[Judged, ...]) -> tuple[float, int | None]:
     """Return a run's deepest gouge in millimeters and its line: 0 and None without one, None for an unknown line."""
     gouges = [gouge for result in results for gouge in result.verdict.gouges]
     deepest = max(gouges, key=lambda gouge: gouge.depth, default=None)
-    return (deepest.depth, _line(deepest.path_number)) if deepest else (0.0, None)
+    return (deepest.depth, line_of(deepest.path_number)) if deepest else (0.0, None)
 
 
 def first_unjudged(results: tuple[Judged, ...]) -> tuple[bool, int | None]:
     """Return whether a contour of a run cannot be judged, and the line of the first such contour."""
     result = next((result for result in results if not result.verdict.judged), None)
-    return result is not None, None if result is None else _first_line(result.center)
+    return result is not None, None if result is None else first_line(result.center)
 
 
-def _line(number: float) -> int | None:
+def line_of(number: float) -> int | None:
     """Return the program line in a path piece's number; None for 0, a move that belongs to no line."""
     return int(number) or None
 
 
-def _first_line(path: Path) -> int | None:
-    return _line(path.numbers[0]) if len(path) else None
-
-
-def _by_itself(result: Judged) -> Iterator[Finding]:
-    """Warn that a part is judged by itself."""
-    text = "The side changes here. Cuts into the contour on the other side are not judged. Program G40 between them."
-    if result.by_itself:
-        yield Finding("SIDES", Severity.WARNING, text, line=_first_line(result.surface))
-
-
-def _uncompensated(result: Judged) -> Iterator[Finding]:
-    """Warn of moves without compensation through a contour; no error, since its wall may be cut away by then."""
-    for cut in result.uncompensated:
-        code, move = ("RAPID", "rapid") if cut.rapid else ("FEED", "move without compensation")
-        at, line = cut.gouge.surface_at, _line(cut.gouge.path_number)
-        text = (
-            f"This {move} at Z {{0}} cuts the contour of line {int(cut.gouge.surface_number)} at X {{x}} Y {{y}}. "
-            "Raise the tool before it."
-        )
-        yield Finding(code, Severity.WARNING, text, at=at, value=cut.gouge.depth, lengths=(cut.height,), line=line)
-
-
-def _cuts_of_others(result: Judged) -> Iterator[Finding]:
-    """Warn of cuts into contours of other stretches; no error, since a slot, say, may be meant to cut the wall."""
-    deepest = sorted(result.of_others, key=lambda cut: -cut.gouge.depth)
-    for cut in deepest[:MAX_GOUGES]:
-        into = (
-            f"the contour of line {int(cut.gouge.surface_number)} at X {{x}} Y {{y}}. Check that this wall may be cut."
-        )
-        text = f"The cutter runs through {into}" if cut.through else f"The cutter cuts {{value}} into {into}"
-        at, line = cut.gouge.surface_at, _line(cut.gouge.path_number)
-        yield Finding("OTHER-CONTOUR", Severity.WARNING, text, at=at, value=cut.gouge.depth, line=line)
-    if len(deepest) > MAX_GOUGES:
-        text = f"Other paths cut {len(deepest) - MAX_GOUGES} more contours, none deeper."
-        yield Finding("OTHER-CONTOUR", Severity.WARNING, text)
-
-
-def _rapid_walls(results: Sequence[Judged]) -> tuple[Finding, ...]:
-    """Warn of rapids under compensation at the depth of the cut, once per line."""
-    moves = {move.line: move for result in results for move in rapid_walls(result.stretch)}
-    text = "This rapid under compensation runs at the depth of the cut, Z {0}. Write G1, or raise the tool before it."
-    return tuple(
-        Finding("RAPID", Severity.WARNING, text, lengths=(move.point[2],), line=_line(line))
-        for line, move in sorted(moves.items())
-    )
-
-
-def _above(result: Judged) -> Iterator[Finding]:
-    """Warn that moves above the part are not judged, because no program says how high the part is."""
-    above = result.above
-    if above is None:
-        return
-    listed = ", ".join(map(str, above.lines[:MAX_LINES])) + (" ..." if len(above.lines) > MAX_LINES else "")
-    which = f"line {listed}" if len(above.lines) == 1 else f"lines {listed}"
-    text = f"The tool passes over the part at Z {{0}} or higher ({which}). Check that it clears part and clamps."
-    yield Finding("ABOVE", Severity.WARNING, text, lengths=(above.height,), line=above.lines[0])
-
-
-def _uneven_arcs(results: Sequence[Judged]) -> dict[Judged, ToleratedArc]:
-    """Return the uneven arcs of judged parts that raise the tolerance; for each line the one that raises it most."""
-    uneven = [(result, result.uneven) for result in results if result.uneven and result.verdict.judged]
-    uneven.sort(key=lambda pair: pair[1].slack)
-    return dict({arc.line: (result, arc) for result, arc in uneven if arc.slack > 0.0}.values())
-
-
-def _uneven_arc(arc: ToleratedArc | None) -> list[Finding]:
-    """Report an arc with two radii that the control accepts, and how it is judged; warn beyond CAM_ROUNDING."""
-    if arc is None:
-        return []
-    text = "Arc radius {0} at its start, {1} at its end: judged at a radius between them, with {value} extra tolerance."
-    severity = Severity.WARNING if arc.slack > CAM_ROUNDING else Severity.INFO
-    return [Finding("ARC_RADII", severity, text, value=arc.slack, lengths=(arc.first, arc.last), line=arc.line)]
-
-
-def _cuts(result: Judged) -> list[Finding]:
-    verdict = result.verdict
-    if not verdict.judged:
-        return [_unjudged(result)]
-    listed = [_gouge(gouge, verdict.radius) for gouge in verdict.gouges[:MAX_GOUGES]]
-    left = len(verdict.gouges) - len(listed)
-    if left:
-        listed.append(Finding("GOUGE", Severity.ERROR, f"{left} more gouges, none deeper."))
-    if verdict.wrong_side:
-        line = _line(result.center.numbers[verdict.wrong_side[0]])
-        text = "The cutter is on the wrong side of the contour at this line."
-        listed.append(Finding("WRONG-SIDE", Severity.ERROR, text, line=line))
-    return listed
-
-
-def _unjudged(result: Judged) -> Finding:
-    """Return the error that says why a path cannot be judged."""
-    arc, line = result.verdict.uneven_arc, _first_line(result.center)
-    if arc is None:
-        text = "Not judged: a coordinate or the tool radius is too large for any machine."
-        return Finding("UNJUDGED", Severity.ERROR, text, line=line)
-    text = "Not judged: the radii of this arc differ by {value}. Correct its center or end point."
-    if np.isinf(arc.difference):
-        text = "Not judged: this arc may be empty or a full circle. Correct its center or end point."
-    return Finding("UNJUDGED", Severity.ERROR, text, value=arc.difference, line=_line(arc.number) or line)
-
-
-def _gouge(gouge: Gouge, radius: float) -> Finding:
-    too_small = gouge.depth < SMALLEST_SHOWN_LENGTH
-    depth = "less than {0}" if too_small else "{value}" + or_more(gouge, radius)
-    text = f"The cutter gouges the surface of line {int(gouge.surface_number)} by {depth} at X {{x}} Y {{y}}."
-    line = _line(gouge.path_number)
-    return Finding(
-        "GOUGE",
-        Severity.ERROR,
-        text,
-        at=gouge.surface_at,
-        value=gouge.depth,
-        lengths=(LAST_INCH_DIGIT,) if too_small else (),
-        line=line,
-    )
-
-
-def _open_contour(result: Judged, gouged: set[float]) -> list[Finding]:
-    """Warn that gouged lines may not be surface: nothing in a program says where a contour begins."""
-    if not gouged & result.open_lines:
-        return []
-    first, last = int(min(result.open_lines)), int(max(result.open_lines))
-    text = (
-        f"Lines {first}-{last} are treated as a contour because they are more than {MAX_LEAD_MOVES} moves. If they "
-        f"only connect contours, cancel compensation before them or use at most {MAX_LEAD_MOVES} moves."
-    )
-    return [Finding("WAY", Severity.WARNING, text, line=first)]
-
-
-def _cut_away(result: Judged) -> Iterator[Finding]:
-    """Warn of walls that are not judged, or not above a height, because another pass cuts them away."""
-    for wall in result.cut_away:
-        lines, others = _lines_of(wall.numbers), _lines_of(wall.cut_away_by or wall.numbers)
-        if wall.stands:
-            text = f"The pass of {others} cuts the wall of {lines} away above Z {{0}}. "
-        else:
-            text = f"The pass of {lines} is taken for roughing: that of {others} cuts its wall away. "
-        text += "If the wall should stay, it is gouged."
-        lengths = (wall.top,) if wall.stands else ()
-        yield Finding("ROUGHING", Severity.WARNING, text, lengths=lengths, line=_line(wall.numbers[0]))
-
-
-def _lines_of(numbers: tuple[float, float]) -> str:
-    first, last = map(int, numbers)
-    return f"line {first}" if first == last else f"lines {first}-{last}"
-
-
-def _leads(result: Judged) -> Iterator[Finding]:
-    """Report moves that are treated as leads, and the cuts into them."""
-    if not result.leads:
-        return
-    text = f"{len(result.leads)} moves before or after a contour are treated as lead moves, not part."
-    check = "They are long. Check that none of them is a wall."
-    if len(result.leads) == 1:
-        text = "A move before or after a contour is treated as a lead move, not part."
-        check = "It is long. Check that it is no wall."
-    severity = Severity.INFO
-    if result.long_leads:
-        severity, text = Severity.WARNING, f"{text} {check}"
-    yield Finding("LEADS", severity, text, line=result.leads[0])
-    deepest = {gouge.surface_number: gouge for gouge in reversed(result.lead_gouges)}
-    for gouge in sorted(deepest.values(), key=lambda gouge: -gouge.depth):
-        text = f"The cutter cuts {{value}} into line {int(gouge.surface_number)}. If this is not a lead, it is a gouge."
-        slack = (result.lead_slack,) if result.lead_slack > 0.0 else ()
-        text += " It is judged with {0} extra tolerance." if slack else ""
-        line, at = _line(gouge.path_number), gouge.surface_at
-        severity = Severity.WARNING if result.doubtful_leads else severity
-        yield Finding("LEAD-GOUGE", severity, text, at=at, value=gouge.depth, lengths=slack, line=line)
-
-
-def _corner_loops(result: Judged) -> Iterator[Finding]:
-    """Report that a contour crosses itself to go around an outside corner."""
-    for loop in result.loops:
-        lines = enumerated("line", loop.numbers)
-        text = f"Loop around the corner X {{x}} Y {{y}}: what lies beyond it on {lines} is no wall."
-        severity = Severity.INFO
-        if loop.long:
-            severity, text = Severity.WARNING, f"{text} It is long. Check that none of it is a wall."
-        yield Finding("CORNER-LOOP", severity, text, at=loop.at, line=_line(loop.numbers[0]))
-
-
-def _contact(result: Judged) -> list[Finding]:
-    """Report moves between the leads that leave the surface by more than the radius, or run backwards along it.
-
-    Some controls leave it at every corner, so several such places make one finding.
-    """
-    numbers, lines = result.center.numbers, result.lines
-    against = tuple(row for row in result.verdict.backwards if numbers[row] in lines)
-    away: tuple[AirCut, ...] = ()
-    if any(numbers[row] in lines for row in result.verdict.loose):
-        cuts = air_cuts(result.surface, result.stretch.radius, result.center)
-        away = tuple(cut for cut in cuts if _between_leads(cut, result.center, lines))
-    first_lines = [*(int(numbers[row]) for row in against[:1]), *(int(cut.first_number) for cut in away)]
-    listed = contact_findings(away, against)
-    located = [replace(finding, segment=None, line=line) for finding, line in zip(listed, first_lines, strict=True)]
-    return located if len(away) < 2 else [*located[: -len(away)], _several(located[-len(away) :])]
-
-
-def _several(away: Sequence[Finding]) -> Finding:
-    """Merge several air cuts into one finding, at the place farthest from the part."""
-    lines = list(dict.fromkeys(str(finding.line) for finding in away))
-    more = " ..." if len(lines) > MAX_LINES else ""
-    text = f"The path cuts air at {len(away)} places (lines {', '.join(lines[:MAX_LINES])}{more}), "
-    text += "at most {0} off the part, at X {x} Y {y}."
-    return replace(max(away, key=lambda finding: finding.lengths), text=text)
-
-
-def _between_leads(away: AirCut, center: Path, lines: frozenset[float]) -> bool:
-    """True if an air cut is not a lead: leads are at a path's two ends, or have lines of their own."""
-    ends = {tuple(center.points[0].tolist()), tuple(center.points[-1].tolist())}
-    return {away.first_number, away.last_number} <= lines and not ends & {away.start, away.end}
-
-
-def _uncut(result: Judged) -> list[Finding]:
-    verdict = result.verdict
-    if not verdict.judged or not verdict.uncut or result.cut_short:
-        return []
-    worst = max(verdict.uncut, key=lambda stretch: stretch.thickness)
-    too_small = worst.thickness < SMALLEST_SHOWN_LENGTH
-    thick = "less than {2}" if too_small else "at most {value}"
-    text = f"{{0}} of {{1}} of the surface stays uncut, {thick} thick at X {{x}} Y {{y}}."
-    lengths = (verdict.uncut_length, verdict.surface_length, *((LAST_INCH_DIGIT,) if too_small else ()))
-    line, at = int(worst.first_number), worst.thickest
-    severity = Severity.INFO if too_small else Severity.WARNING
-    return [Finding("UNCUT", severity, text, at=at, value=worst.thickness, lengths=lengths, line=line)]
-
-
-def _crossing(result: Judged) -> list[Finding]:
-    """Report that the contour's ends run past its corner, or that it crosses itself."""
-    verdict, line = result.verdict, _first_line(result.surface)
-    if verdict.over_run is not None:
-        return [_over_run(verdict.over_run, result.surface)]
-    if not verdict.crosses_itself:
-        return []
-    place = " at X {x} Y {y}" if verdict.crossing_at else ""
-    text = f"The programmed contour crosses or touches itself{place}. All of it counts as surface."
-    return [Finding("CROSSES", Severity.WARNING, text, at=verdict.crossing_at, line=line)]
-
-
-def _over_run(over_run: OverRun, surface: Path) -> Finding:
-    """Report that the contour's ends are leads; warn if its first or last point, or a lead, may be wrong."""
-    if not over_run.doubtful and over_run.lead_numbers:
-        which = enumerated("line", over_run.lead_numbers)
-        text = f"Over-run at X {{x}} Y {{y}}. Taken for lead beyond it: {which}. Check that no wall is cut there."
-        return Finding("OVER_RUN", Severity.WARNING, text, at=over_run.at, line=_line(over_run.lead_numbers[0]))
-    if not over_run.doubtful:
-        text = "Over-run at X {x} Y {y}: the ends are lead-in and lead-out."
-        return Finding("OVER_RUN", Severity.INFO, text, at=over_run.at, line=_first_line(surface))
-    length, line = max(over_run.lead_in, over_run.lead_out), _line(over_run.last_number)
-    text = "The contour begins on this line; {value} behind that is taken for lead-out. Check where it begins."
-    if over_run.lead_in > over_run.lead_out:
-        line = _line(over_run.first_number)
-        text = "The contour ends on this line; {value} before that is taken for lead-in. Check where it ends."
-    return Finding("OVER_RUN", Severity.WARNING, text, at=over_run.at, value=length, line=line)
+def first_line(path: Path) -> int | None:
+    """Return the program line of a path's first piece; None for an empty path or an unknown line."""
+    return line_of(path.numbers[0]) if len(path) else None

@@ -18,7 +18,8 @@ from core.controls.control_tools import ToolId, ToolTable
 from core.controls.iso.execute import NO_LIBRARY
 from core.controls.iso.flow import ProgramLibrary
 from core.controls.iso.modal_state import RADIUS_ZERO
-from core.controls.judged_runs import Judged, deepest_gouge, first_unjudged, judge_run, judged_findings
+from core.controls.judged_findings import judged_findings
+from core.controls.judged_runs import Judged, deepest_gouge, first_unjudged, judge_run
 from core.controls.moves import Move, Moves
 from core.controls.registry import UnknownControl, reads, run
 from core.finding import Finding, Severity
