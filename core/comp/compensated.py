@@ -9,7 +9,7 @@ from typing import Final
 import numpy as np
 
 from core.finding import Finding
-from core.geometry.path import EMPTY, Flags, Floats, Path, joined
+from core.geometry.path import EMPTY, Flags, Floats, Path, joined, point_of_row
 from core.geometry.piece import Point, Side
 
 
@@ -59,7 +59,7 @@ class CenterPath:
     def plunge_point(self) -> Point | None:
         """The point where the tool goes down; None for a run without pieces."""
         whole = self.whole
-        return (float(whole.points[0, 0]), float(whole.points[0, 1])) if len(whole) else None
+        return point_of_row(whole.points[0]) if len(whole) else None
 
 
 @dataclass(frozen=True, eq=False, slots=True)

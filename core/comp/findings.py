@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 from core.comp.offset import RawChain, RawPart
 from core.comp.prune import Pruned
 from core.finding import Finding, Severity
-from core.geometry.path import Flags, Floats, Path, Rows, as_complex
+from core.geometry.path import Flags, Floats, Path, Rows, as_complex, point_of_row
 from core.geometry.piece import Side
 from core.tolerance import ARC_RADII, GOUGE, JOINED, LARGEST_COORDINATE
 
@@ -99,8 +99,8 @@ def start_in_corner_finding(contour: Path, side: Side, radius: float) -> list[Fi
     if side.sign * bend.imag <= 0.0 or radius * (1.0 - bend.real) <= GOUGE:
         return []
     text = "START is in an inside corner: the cutter gouges the last wall. Start in the middle of a side."
-    at = (float(contour.points[0, 0]), float(contour.points[0, 1]))
-    return [Finding("START_INSIDE_CORNER", Severity.WARNING, text, float(contour.numbers[0]), at=at)]
+    number, at = float(contour.numbers[0]), point_of_row(contour.points[0])
+    return [Finding("START_INSIDE_CORNER", Severity.WARNING, text, number, at=at)]
 
 
 def bridge_findings(contour: Path, chain: RawChain, pruned: Pruned, radius: float) -> list[Finding]:

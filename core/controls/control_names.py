@@ -1,4 +1,4 @@
-"""Control names are what operators call each control, with a line about it and its name inside cutcomp."""
+"""Control names are what operators call each control, with a line about it and cutcomp's internal name for it."""
 
 from __future__ import annotations
 
@@ -66,18 +66,18 @@ CONTROL_NAMES: Final[Mapping[str, ControlName]] = {
     ),
     "threeblock": ControlName("three-block", "Three-block control", "older US mill: radius with T, reads 3 blocks"),
 }
-"""The names, by the name inside cutcomp, in the order that lists show."""
+"""The names, by the internal name, in the order that lists show."""
 
-_INSIDE: Final = {entry.name: inside for inside, entry in CONTROL_NAMES.items()}
+_INTERNAL_NAMES: Final = {entry.name: name for name, entry in CONTROL_NAMES.items()}
 
 
-def inside_name(control: str) -> str:
+def internal_name(control: str) -> str:
     """Return a typed name of a control with cutcomp's own name in place of the one that operators use."""
     name, colon, variant = control.strip().lower().partition(":")
-    return f"{_INSIDE.get(name, name)}{colon}{variant}"
+    return f"{_INTERNAL_NAMES.get(name, name)}{colon}{variant}"
 
 
 def display_name(control: str) -> str:
-    """Return the name that operators type and read for a control's full or short name inside cutcomp."""
+    """Return the name that operators type and read for a control's full or short internal name."""
     name, colon, variant = control.partition(":")
     return f"{CONTROL_NAMES[name].name if name in CONTROL_NAMES else name}{colon}{variant}"

@@ -14,7 +14,7 @@ from typing import Final
 
 import numpy as np
 
-from core.geometry.path import Floats, Path
+from core.geometry.path import Floats, Path, point_of_row
 from core.geometry.piece import Side
 from core.geometry.piece_arrays import PieceArrays, piece_arrays
 from core.tolerance import JOINED
@@ -50,9 +50,7 @@ def without_corner_loops(contour: Path, side: Side) -> tuple[Path, tuple[CornerL
         shorter = _cut_short(contour, first, last, at)
         around = float(contour.lengths.sum() - shorter.lengths.sum())
         numbers = tuple(contour.numbers[first : last + 1].tolist())
-        loops.append(
-            CornerLoop((float(at[0]), float(at[1])), numbers, around > MAX_LOOP_SHARE * float(shorter.lengths.sum()))
-        )
+        loops.append(CornerLoop(point_of_row(at), numbers, around > MAX_LOOP_SHARE * float(shorter.lengths.sum())))
         contour = shorter
     return contour, tuple(loops)
 

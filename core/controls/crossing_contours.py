@@ -23,7 +23,7 @@ from shapely.geometry.base import BaseGeometry
 
 from core.controls.control_run import ControlRun, Stretch
 from core.controls.iso.modal_state import TAKEN_AS_ZERO
-from core.controls.moves import Moves, Plane, runs_of
+from core.controls.moves import Moves, Plane
 from core.controls.rapids_at_depth import CutContour
 from core.controls.repeated_passes import PathKey, path_key
 from core.finding import Severity
@@ -83,10 +83,8 @@ class _Pass:
 
     def low(self, top: float) -> Iterator[Path]:
         """Yield the parts of the moves that are no higher than `top`."""
-        for rows in runs_of(self.moves.low(top)):
-            path = self.moves.part(int(rows[0]) - 1, int(rows[-1]) + 1).path()
-            if len(path):
-                yield path
+        paths = (run.path() for run in self.moves.runs(self.moves.low(top)))
+        return (path for path in paths if len(path))
 
     def swept(self, top: float, grown: float) -> BaseGeometry:
         """Return the region that a cutter larger by `grown` on all sides sweeps in the moves no higher than `top`."""

@@ -22,7 +22,7 @@ from core.controls.contours_and_leads import (
 from core.controls.control_run import ControlRun, Stretch
 from core.controls.corner_loops import CornerLoop, without_corner_loops
 from core.controls.crossing_contours import ContourCut, cuts_of_other_contours
-from core.controls.moves import Moves, Plane, runs_of
+from core.controls.moves import Moves, Plane
 from core.controls.moves_above import Z_COLUMN, Divided, divided, heights_above
 from core.controls.rapids_at_depth import CutContour, UncompensatedCut, highest_cut, moves_through
 from core.controls.registry import arc_tolerance
@@ -412,10 +412,10 @@ def _with_leads(
     results: list[Judged], whole: Path, contours: tuple[RowRange, ...], accepted: float, *, arcs: bool
 ) -> list[Judged]:
     """Return the results with the leads outside the contours in the first one; with `arcs` all of them are doubtful."""
-    inside = np.zeros(len(whole), np.bool_)
+    in_contour = np.zeros(len(whole), np.bool_)
     for first, last in contours:
-        inside[first:last] = True
-    leads = whole.numbers[~inside].tolist()
+        in_contour[first:last] = True
+    leads = whole.numbers[~in_contour].tolist()
     if not leads:
         return results
     stretch, center, surface = results[0].stretch, results[0].center, without_repeats(whole)
@@ -497,9 +497,8 @@ def _cuts_below(run: ControlRun, stretch: Stretch, top: float, contour: Path, le
     moves = run.moves.part(stretch.first, stretch.last)
     heights = moves.points[:, Z_COLUMN]
     low = np.minimum(heights, np.concatenate((heights[:1], heights[:-1]))) < top - ON_PATH
-    low[:1] = False
-    parts = [moves.part(int(rows[0]) - 1, int(rows[-1]) + 1) for rows in runs_of(low)]
-    gouges = [gouge for part in parts for gouge in _cuts_of(run, stretch, _path_of(part, stretch), [contour], leads)[0]]
+    paths = [_path_of(part, stretch) for part in moves.runs(low)]
+    gouges = [gouge for path in paths for gouge in _cuts_of(run, stretch, path, [contour], leads)[0]]
     return sorted(gouges, key=lambda gouge: -gouge.depth)
 
 

@@ -109,6 +109,10 @@ class Moves:
         """Return rows first ... last - 1; row `first` becomes the start point."""
         return Moves(*(getattr(self, name)[first:last] for name in self.__slots__))
 
+    def runs(self, flags: Flags) -> Iterator[Moves]:
+        """Yield each run of consecutive flagged moves, after the point where it starts; row 0 is no move."""
+        return (self.part(int(rows[0]), int(rows[-1]) + 2) for rows in runs_of(flags[1:]))
+
     def low(self, top: float) -> Flags:
         """Return (n,) flags of the rows that start and end no higher than `top`; the start point is none."""
         low: Flags = self.points[:, 2] <= top + ON_PATH

@@ -12,7 +12,7 @@ from typing import Final
 
 import numpy as np
 
-from core.controls.control_names import CONTROL_NAMES, ControlChoice, display_name, inside_name
+from core.controls.control_names import CONTROL_NAMES, ControlChoice, display_name, internal_name
 from core.controls.control_run import ControlRun
 from core.controls.control_tools import ToolTable
 from core.controls.iso.arcs import ArcTolerance
@@ -73,13 +73,13 @@ CONTROLS: Final[Mapping[str, RegisteredControl]] = {
 
 def arc_tolerance(control: str) -> ArcTolerance:
     """Return how far an arc's radii may differ on a control, by full or short name; KeyError for an unknown one."""
-    dialect = CONTROLS[inside_name(control).partition(":")[0]].dialect
+    dialect = CONTROLS[internal_name(control).partition(":")[0]].dialect
     return dialect.arc_tolerance if dialect else KLARTEXT_ARC_TOLERANCE
 
 
 def is_klartext(control: str) -> bool:
     """True if a control, by its full or short name, reads Klartext; all others read word addresses."""
-    return CONTROLS[inside_name(control).partition(":")[0]].dialect is None
+    return CONTROLS[internal_name(control).partition(":")[0]].dialect is None
 
 
 def names() -> tuple[str, ...]:
@@ -91,13 +91,13 @@ def choices() -> tuple[ControlChoice, ...]:
     """Return every control with every variant, for a list to choose from: the best known first, each with a line."""
     return tuple(
         ControlChoice(
-            full := _joined(inside, variant),
+            full := _joined(name, variant),
             display_name(full),
             entry.title,
             f"{entry.variants[variant]}; {entry.about}" if variant else entry.about,
         )
-        for inside, entry in CONTROL_NAMES.items()
-        for variant in CONTROLS[inside].variants
+        for name, entry in CONTROL_NAMES.items()
+        for variant in CONTROLS[name].variants
     )
 
 
@@ -117,7 +117,7 @@ def reads(control: str, text: bytes) -> bool:
 
 def resolve(control: str) -> str | UnknownControl:
     """Return the full name of a control, with the default variant added, or the sentence that lists all controls."""
-    name, _, variant = inside_name(control).partition(":")
+    name, _, variant = internal_name(control).partition(":")
     entry = CONTROLS.get(name)
     if entry is None or (variant and variant not in entry.variants):
         known = ", ".join(choice.name for choice in choices())

@@ -16,7 +16,7 @@ from core.controls.judged_runs import programmed_surface
 from core.controls.moves import Moves
 from core.finding import Finding, Severity
 from core.geometry.distance import distance
-from core.geometry.path import Floats, Path
+from core.geometry.path import Floats, Path, point_of_row
 from core.geometry.piece import Point, Side
 from core.geometry.piece_arrays import piece_arrays
 from core.tolerance import JOINED
@@ -71,10 +71,8 @@ def _stretch(moves: Moves, stretch: Stretch) -> list[Finding]:
 def _entry(stretch: Stretch) -> PlaneMove:
     """Return the programmed move that applies compensation."""
     first, second, _ = stretch.plane.axes
-    points, row = stretch.programmed.points, stretch.entry
-    start, end = points[row - 1], points[row]
-    ends = (float(start[first]), float(start[second])), (float(end[first]), float(end[second]))
-    return PlaneMove(*ends, int(stretch.programmed.lines[row]))
+    points, row = stretch.programmed.points[:, [first, second]], stretch.entry
+    return PlaneMove(point_of_row(points[row - 1]), point_of_row(points[row]), int(stretch.programmed.lines[row]))
 
 
 def _exit(moves: Moves, stretch: Stretch, contour: Path) -> PlaneMove | None:
@@ -84,8 +82,8 @@ def _exit(moves: Moves, stretch: Stretch, contour: Path) -> PlaneMove | None:
     if not stretch.exit and line == int(stretch.programmed.lines[-1]):
         return None
     first, second, _ = stretch.plane.axes
-    x, y = contour.points[-1].tolist()
-    return PlaneMove((x, y), (float(moves.points[row, first]), float(moves.points[row, second])), line)
+    end = point_of_row(moves.points[row, [first, second]])
+    return PlaneMove(point_of_row(contour.points[-1]), end, line)
 
 
 def _applying(entry: PlaneMove, contour: Path) -> list[Finding]:

@@ -17,7 +17,7 @@ from typing import Any, Final, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from core.geometry.piece import ANGLE_ROUNDING, Arc, Line, Piece, Turn
+from core.geometry.piece import ANGLE_ROUNDING, Arc, Line, Piece, Point, Turn
 
 Floats = NDArray[np.float64]
 Points = NDArray[np.complex128]
@@ -254,6 +254,12 @@ def as_complex(pairs: Floats) -> Points:
 def coordinates(points: Points) -> Floats:
     """Return (n,) complex numbers as (n, 2) coordinates, without a copy if they are contiguous in memory."""
     return np.ascontiguousarray(points).view(np.float64).reshape(-1, 2)
+
+
+def point_of_row(row: Floats) -> Point:
+    """Return one row of (n, 2) coordinates as a point."""
+    x, y = row.tolist()
+    return x, y
 
 
 def next_in_ring(values: NDArray[Any]) -> NDArray[Any]:

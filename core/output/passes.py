@@ -31,7 +31,7 @@ from core.advice.path_findings import ZStep
 from core.comp.compensated import CenterPath
 from core.controls.write.contour_pass import CenterMove
 from core.finding import Finding, Severity
-from core.geometry.path import Floats, Path, Pieces, pieces_of, swept
+from core.geometry.path import Floats, Path, Pieces, pieces_of, point_of_row, swept
 from core.geometry.piece import Line, Piece, Point
 from core.program.model import Coolant
 from core.tolerance import CLOSED, JOINED, LAST_PASS
@@ -169,8 +169,8 @@ def z_steps(job: Job) -> list[ZStep]:
         ends = heights(job, run)[first : first + count]
         rise = ends[1:, 0] - ends[:-1, 1]
         for row in np.flatnonzero(np.abs(rise) > CLOSED).tolist():
-            x, y = run.path.points[row + 1].tolist()
-            steps.append(ZStep(float(rise[row]), float(run.path.numbers[row + 1]), (x, y)))
+            at = point_of_row(run.path.points[row + 1])
+            steps.append(ZStep(float(rise[row]), float(run.path.numbers[row + 1]), at))
     return steps
 
 

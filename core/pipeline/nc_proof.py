@@ -16,7 +16,7 @@ from core.controls.judged_runs import Judged, judge_run
 from core.controls.moves import Moves, Plane
 from core.controls.registry import UnknownControl, run
 from core.draw.scene import Circle, Layer, Mark, Scene, Style, Symbol, contour_scene, joined_scenes
-from core.geometry.path import Path
+from core.geometry.path import Path, point_of_row
 from core.geometry.path_parts import parts_between
 from core.geometry.piece import Point
 from core.progress import Progress, silent
@@ -69,9 +69,7 @@ def fixed_scene(proof: Proof) -> Scene:
 
 def _parts(moves: Moves, plane: Plane, chosen: NDArray[np.bool_]) -> Iterator[Path]:
     """Yield the paths of consecutive chosen moves on the plane; row 0 is the start point."""
-    rows = np.flatnonzero(chosen[1:]) + 1
-    for part in np.split(rows, np.flatnonzero(np.diff(rows) > 1) + 1) if len(rows) else ():
-        yield moves.part(int(part[0]) - 1, int(part[-1]) + 1).path(plane)
+    return (run.path(plane) for run in moves.runs(chosen))
 
 
 def _stretch_scene(result: Judged) -> Scene:
@@ -111,9 +109,8 @@ def cutter_at_line(proof: Proof, line: int) -> tuple[Point, int]:
     if not len(rows):
         above = np.flatnonzero((moves.lines < line) & (moves.lines > 0))
         rows = above if len(above) else np.array([0])
-    first, second, _ = proof.plane.axes
     row = int(rows[-1])
-    return (float(moves.points[row, first]), float(moves.points[row, second])), row
+    return point_of_row(moves.points[row, list(proof.plane.axes[:2])]), row
 
 
 def _stretch_at(proof: Proof, row: int) -> Stretch | None:

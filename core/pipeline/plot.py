@@ -30,7 +30,7 @@ from core.draw.scene import (
 )
 from core.draw.view import CELL_HEIGHT, View
 from core.geometry.distance import distance
-from core.geometry.path import EMPTY, Floats, Path, as_complex
+from core.geometry.path import EMPTY, Path, as_complex, point_of_row
 from core.geometry.path_parts import NO_PARTS, PartEnds, PathParts, parts_between, single_pieces
 from core.geometry.piece import Line, Piece, Point, Side
 from core.geometry.piece_arrays import piece_arrays
@@ -315,16 +315,11 @@ def _place(loops: Sequence[CenterPath], control: Compensated | None, segment: in
     for loop in loops:
         parts = [part for part in (loop.lead_in, loop.path, loop.lead_out) if len(part)]
         if not segment and parts:
-            return _point(parts[0].points[0])
+            return point_of_row(parts[0].points[0])
         for part in reversed(parts):
             if len(rows := (part.numbers == segment).nonzero()[0]):
-                return _point(part.ends[rows[-1]])
+                return point_of_row(part.ends[rows[-1]])
     return None if control is None else _meeting(control, segment)
-
-
-def _point(row: Floats) -> Point:
-    x, y = row.tolist()
-    return x, y
 
 
 def _meeting(control: Compensated, segment: float) -> Point | None:

@@ -14,7 +14,7 @@ import numpy as np
 
 from core.comp.compensate import compensate
 from core.controls.compensation.elements import SAME_DIRECTION, Element, offset_end, sweep
-from core.geometry.path import Path
+from core.geometry.path import Path, point_of_row
 from core.geometry.piece import Point, Side
 from core.tolerance import JOINED
 
@@ -54,7 +54,7 @@ def path_ahead(elements: Sequence[Element], offset: float, depth: int, begin: Po
     path = compensated.path
     if not len(path):
         return Unreached(0, "the {0}-radius tool cannot reach any of this contour")
-    start, way = path[0].start, _point(path.start_directions[0])
+    start, way = path[0].start, point_of_row(path.start_directions[0])
     if bool(compensated.bridged.any()):
         row = int(path.numbers[compensated.bridged][0])
         before = PathAhead(path.part(0, int((path.numbers < row).sum())), begin or start, way)
@@ -80,11 +80,6 @@ def _contour(elements: Sequence[Element]) -> Path:
     return Path.of(
         points, np.array([element.center for element in elements]), turns, np.arange(len(elements), dtype=np.float64)
     )
-
-
-def _point(row: np.ndarray[tuple[int], np.dtype[np.float64]]) -> Point:
-    x, y = row.tolist()
-    return x, y
 
 
 def _near(first: Point, second: Point) -> bool:

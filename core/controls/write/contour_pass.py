@@ -24,7 +24,7 @@ from core.controls.compensation.elements import (
     point_along,
 )
 from core.finding import Finding, Severity
-from core.geometry.path import Path
+from core.geometry.path import Path, point_of_row
 from core.geometry.piece import Arc, Piece, Point, Side
 from core.tolerance import CLOSED
 from core.units import Unit, from_mm
@@ -168,8 +168,8 @@ def programmed_elements(compensated: Compensated) -> ProgrammedElements | Findin
             text = "The look-ahead deletes the next segments; no control's own compensation does that."
             return not_written(f"{text} Post the center path.", numbers[index])
         elements[index], elements[index + 1] = first._replace(end=corner), second._replace(start=corner)
-    again = overlap(compensated)
-    first_point, last_point = _point(compensated.path, 0), _point(again if len(again) else compensated.path, -1)
+    path, again = compensated.path, overlap(compensated)
+    first_point, last_point = point_of_row(path.points[0]), point_of_row((again if len(again) else path).points[-1])
     elements[0] = _whole(elements[0], elements[0]._replace(start=element_point(elements[0], first_point, offset)))
     elements[-1] = _whole(elements[-1], elements[-1]._replace(end=element_point(elements[-1], last_point, offset)))
     return ProgrammedElements(tuple(map(_rebuilt, elements)), tuple(numbers))
@@ -235,7 +235,7 @@ def path_finish(compensated: Compensated) -> PathEnd:
 
 def _end(compensated: Compensated, whole: Path, lead: Path, sense: int) -> PathEnd:
     """Return the end at which `whole` begins; `sense` is -1 for a reversed path."""
-    at, blend = _point(whole, 0), blend_of(compensated)
+    at, blend = point_of_row(whole.points[0]), blend_of(compensated)
     if blend:
         (cx, cy), (ex, ey) = lead.centers[0].tolist(), lead.points[1].tolist()
         way = (sense * (cx - at[0]) / blend, sense * (cy - at[1]) / blend)
@@ -248,11 +248,6 @@ def _end(compensated: Compensated, whole: Path, lead: Path, sense: int) -> PathE
         side = (-side[0], -side[1])
     corner = point_along(at, side, compensated.radius)
     return PathEnd(at, corner, way, off, blend)
-
-
-def _point(path: Path, index: int) -> Point:
-    x, y = path.points[index].tolist()
-    return x, y
 
 
 def number_text(value: float, unit: Unit, decimals: int) -> str:
