@@ -3,9 +3,9 @@
 from __future__ import annotations
 
 from asyncio import to_thread
-from collections.abc import Callable
-from contextlib import suppress
-from typing import TYPE_CHECKING, TypeVar, cast
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager, suppress
+from typing import TYPE_CHECKING, cast
 
 from textual import on, work
 from textual.app import App
@@ -27,8 +27,6 @@ from core.progress import Stopped
 if TYPE_CHECKING:
     from app.nc_proof.screen import ProofScreen
     from core.advice.lookahead_table import Row, Table
-
-Result = TypeVar("Result")
 
 QUIET = 0.2
 """Seconds without a key before the search for advice starts, so that no key waits for it."""
@@ -65,18 +63,22 @@ class DerivationActions(App[int]):
 
     # ---- long work, its progress and its end
 
-    def begin_work(self, on_stop: Callable[[], None]) -> Work:
-        """Register work that starts in a thread; `on_stop` is called if Esc stops it."""
+    @contextmanager
+    def working(self, on_stop: Callable[[], None]) -> Iterator[Work]:
+        """Show the progress of work in a thread; `on_stop` is called if Esc stops it.
+
+        The thread then raises Stopped at its next report, and also if the worker that waits for it is canceled.
+        """
         work = Work(on_stop)
         self._works = (*self._works, work)
         if self._work_timer is None:
             self._work_timer = self.set_interval(SHOWN_AFTER, self.show_work)
-        return work
+        try:
+            yield work
+        finally:
+            self._end_work(work)
 
-    def end_work(self, work: Work | None) -> None:
-        """End work that is done or no longer needed; a running thread stops at its next report.  Ignore None."""
-        if work is None:
-            return
+    def _end_work(self, work: Work) -> None:
         work.stopped = True
         self._works = tuple(each for each in self._works if each is not work)
         if not self._works and self._work_timer is not None:
@@ -105,20 +107,9 @@ class DerivationActions(App[int]):
         """Stop all work that has run long enough."""
         for each in self._works:
             if each.stoppable:
-                self.end_work(each)
+                self._end_work(each)
                 each.on_stop()
         self.show_work()
-
-    async def _in_thread(self, calculation: Callable[..., Result], *arguments: object) -> Result:
-        """Return the result of a calculation in a thread; raise Stopped if Esc stops it.
-
-        If the worker is canceled, the thread stops at its next report.
-        """
-        work = self.begin_work(self._calculation_stopped)
-        try:
-            return await to_thread(calculation, *arguments, work)
-        finally:
-            self.end_work(work)
 
     # ---- the program, its table, and advice
 
@@ -145,8 +136,8 @@ class DerivationActions(App[int]):
     # a worker with a program needs a description: else Textual formats the whole program before the next key
     @work(exclusive=True, group="derive", description="derive")
     async def _derive_in_thread(self, program: Program) -> None:
-        with suppress(Stopped):
-            result = await self._in_thread(derived, program)
+        with suppress(Stopped), self.working(self._calculation_stopped) as work:
+            result = await to_thread(derived, program, work)
             self._deriving = None
             if program is self.session.program:
                 self.session = self.shown = self.session.knowing(result)
@@ -182,8 +173,8 @@ class DerivationActions(App[int]):
         def known(rows: tuple[Row, ...]) -> None:
             self.post_message(RowsKnown(block, rows))
 
-        with suppress(Stopped):
-            self._show_table(block, await self._in_thread(lookahead_table, block, program, known))
+        with suppress(Stopped), self.working(self._calculation_stopped) as work:
+            self._show_table(block, await to_thread(lookahead_table, block, program, known, work))
             self._advise_later()
 
     @on(RowsKnown)

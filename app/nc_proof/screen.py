@@ -41,7 +41,7 @@ from app.screens.base import BaseScreen
 from app.screens.dialogs import ChooseLine, Phrase
 from app.session.messages import Sentence, Tone
 from app.session.words import counted
-from app.session.work import Work, while_wanted
+from app.session.work import while_wanted
 from app.widgets.drawing import Drawing
 from app.widgets.option_rows import OptionRows, control_rows
 from app.widgets.plain import PlainLabel, PlainText
@@ -110,13 +110,7 @@ class ProofScreen(BaseScreen):
         ("?", "KEYS, HELP"),
     )
 
-    def __init__(
-        self,
-        document: NcDocument,
-        asked: Asked | None = None,
-        usual: str = "",
-        remembered: str = "",
-    ) -> None:
+    def __init__(self, document: NcDocument, asked: Asked | None = None, usual: str = "", remembered: str = "") -> None:
         super().__init__()
         self.document = document
         text = document.text
@@ -139,8 +133,6 @@ class ProofScreen(BaseScreen):
         """That control's run of the same text; None until it is known."""
         self.view_of: View | None = None
         self.stopped = self.half_typed = False
-        self._work: Work | None = None
-        self._dotted_work: Work | None = None
 
     def compose_body(self) -> ComposeResult:
         """Lay out the titles, the listing, the two drawings and the findings."""
@@ -307,28 +299,22 @@ class ProofScreen(BaseScreen):
         if self.dotted_control == question.control:
             self.dotted_control = ""
         self._end_dotted()
-        self.host.end_work(self._work)
-        self._work = self.host.begin_work(self._run_stopped)
         self._show_titles()
-        self._run(question, self._work)
+        self._run(question)
 
     @work(exclusive=True, group="proof", description="proof")
-    async def _run(self, question: Question, work: Work) -> None:
-        # the code that stops the work reports it
+    async def _run(self, question: Question) -> None:
         with suppress(Stopped):
-            result = await to_thread(run, question, part(work, 0.0, RUN_SHARE))
-            self._ran(result)
-            judged = await to_thread(judge, result, part(work, RUN_SHARE, 1.0))
+            with self.host.working(self._run_stopped) as work:
+                result = await to_thread(run, question, part(work, 0.0, RUN_SHARE))
+                self._ran(result)
+                judged = await to_thread(judge, result, part(work, RUN_SHARE, 1.0))
             self._ran(judged)
+            self._ask_dotted()
             # the progress shown ends with the verdict
             fitted = await to_thread(with_largest_tool, judged, while_wanted(get_current_worker()))
             if fitted.answer.fits is not None:
                 self._ran(fitted)
-
-    def on_unmount(self) -> None:
-        """Stop the work; its result is no longer needed."""
-        self.host.end_work(self._work)
-        self._end_dotted()
 
     def _run_stopped(self) -> None:
         """Report that Esc stopped the run: the text stays without a run, or without verdicts, until the next one."""
@@ -341,10 +327,6 @@ class ProofScreen(BaseScreen):
             return
         held = self._finding_in_hand()
         self.result = result
-        if result.judged and self._work is not None:
-            self.host.end_work(self._work)
-            self._work = None
-            self._ask_dotted()
         marks: dict[int, Severity] = {}
         for finding in result.findings:
             if finding.line is not None:
@@ -361,25 +343,22 @@ class ProofScreen(BaseScreen):
         """Run the program on the control that is drawn dotted, once the main run is judged."""
         self._end_dotted()
         if self.dotted_control and self.result is not None and self.result.judged:
-            self._dotted_work = self.host.begin_work(self._dotted_stopped)
-            self._run_dotted(self.result, self.dotted_control, self._dotted_work)
+            self._run_dotted(self.result, self.dotted_control)
 
     @work(exclusive=True, group="dotted", description="dotted")
-    async def _run_dotted(self, main: Result, control: str, work: Work) -> None:
-        # the code that stops the work reports it
-        with suppress(Stopped):
+    async def _run_dotted(self, main: Result, control: str) -> None:
+        with suppress(Stopped), self.host.working(self._dotted_stopped) as work:
             dotted = await to_thread(run_dotted, main, control, work)
             other = dotted.result
             if self.stands and main.question is self.question and control == self.dotted_control:
-                self._end_dotted()
                 self.dotted = dotted
                 self._draw()
                 self.say(f"Dotted: {display_name(control)} {other.answer.outcome}. B removes it.")
 
     def _end_dotted(self) -> None:
         """Drop the other control's path and stop its run."""
-        self.host.end_work(self._dotted_work)
-        self._dotted_work = self.dotted = None
+        self.workers.cancel_group(self, "dotted")
+        self.dotted = None
 
     def _dotted_stopped(self) -> None:
         """Report that Esc stopped the run on the other control."""

@@ -106,10 +106,7 @@ class BaseScreen(Screen[None]):
 
     def compose(self) -> ComposeResult:
         """Lay out the frame around the body; set the size classes first, or everything would be styled twice."""
-        for points, size in (
-            (WIDTH_CLASSES, self.app.size.width),
-            (HEIGHT_CLASSES, self.app.size.height),
-        ):
+        for points, size in ((WIDTH_CLASSES, self.app.size.width), (HEIGHT_CLASSES, self.app.size.height)):
             self.add_class(max(point for point in points if point[0] <= size)[1], update=False)
         with Horizontal(id="main"):
             with Vertical(id="desk"):

@@ -17,13 +17,7 @@ from textual.containers import Horizontal, Vertical
 from textual.content import Content
 from textual.widgets import DataTable, Input, Label, Static
 
-from app.documents.drawing_files import (
-    Progress,
-    Worker,
-    drawing_bytes,
-    prepare_workers,
-    read_and_list,
-)
+from app.documents.drawing_files import Progress, Worker, drawing_bytes, prepare_workers, read_and_list
 from app.documents.programs import empty_program
 from app.documents.questions import GO_BACK, Answer
 from app.screens.base import BaseScreen

@@ -41,9 +41,7 @@ class LookaheadScreen(BaseScreen):
         Softkey("TAKE AS USR", "take", "TAKE", lambda screen: screen.row is not None, NO_TABLE),
         None,
         Softkey("RECALCULATE LOOKAHEAD", "recalculate", "RECALC"),
-        None,
-        None,
-        None,
+        *(None,) * 3,
         Softkey("DRAW", "app.draw", "DRAW"),
         Softkey("BACK to START", "app.back", "BACK"),
     )

@@ -21,7 +21,6 @@ from app.session.messages import Sentence, Tone
 from app.session.posting import CENTER_PATH, OVERRIDE_PHRASES, NcText, choices, nc_text, objections
 from app.session.session import Session
 from app.session.words import counted
-from app.session.work import Work
 from app.widgets.option_rows import OptionRows, control_rows
 from app.widgets.plain import PlainLabel, PlainText
 from app.widgets.softkeys import Softkey
@@ -47,11 +46,7 @@ class PostScreen(EntryScreen):
     SOFTKEYS: ClassVar[tuple[Softkey | None, ...]] = (
         Softkey("POST", "enter", "POST"),
         Softkey("CHOOSE CONTROL", "controls", "CONTROL"),
-        None,
-        None,
-        None,
-        None,
-        None,
+        *(None,) * 5,
         Softkey("BACK to program", "app.back", "BACK"),
     )
     MORE_KEYS: ClassVar[tuple[tuple[str, str], ...]] = BaseScreen.MORE_KEYS
@@ -63,7 +58,6 @@ class PostScreen(EntryScreen):
         self.stopped = False
         self._enter_waits = False
         """Enter was pressed while the text was being made: it acts once the text is there."""
-        self._work: Work | None = None
         self._program: Program | None = None
         """The program that `made` is, or is being, made from."""
 
@@ -119,29 +113,23 @@ class PostScreen(EntryScreen):
 
     def _make(self, program: Program) -> None:
         self.made, self.stopped, self._enter_waits, self._program = None, False, False, program
-        self.host.end_work(self._work)
-        self._work = self.host.begin_work(self._make_stopped)
         self._show()
-        self._make_in_thread(program, self._work)
+        self._make_in_thread(program)
 
     @work(exclusive=True, group="post", description="post")
-    async def _make_in_thread(self, program: Program, work: Work) -> None:
+    async def _make_in_thread(self, program: Program) -> None:
         """Make the NC text, or find what prevents posting."""
         name = Path(self._text or "part").stem
         with suppress(Stopped):
-            made = await to_thread(nc_text, program, name, self.choice, progress=work)
-            if work.stopped or not self.stands:
-                return
-            self.host.end_work(work)
+            with self.host.working(self._make_stopped) as work:
+                made = await to_thread(nc_text, program, name, self.choice, progress=work)
+                if work.stopped or not self.stands:
+                    return
             self.made = made
             self._show()
             if self._enter_waits:
                 self._enter_waits = False
                 self.action_enter()
-
-    def on_unmount(self) -> None:
-        """Stop the work; its result is no longer needed."""
-        self.host.end_work(self._work)
 
     def _make_stopped(self) -> None:
         """Note that Esc has stopped the work; Enter starts it again."""

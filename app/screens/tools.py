@@ -84,9 +84,7 @@ class ToolsScreen(FormScreen):
         Softkey("DELETE TOOL", "delete_tool", "DELETE", lambda screen: screen.tool is not None, EMPTY_PROMPT),
         Softkey("ADD TOOL", "add_tool", "ADD"),
         Softkey("IMPORT TABLE", "app.import_tools", "IMPORT"),
-        None,
-        None,
-        None,
+        *(None,) * 3,
         Softkey("DRAW", "app.draw", "DRAW"),
         Softkey("BACK", "app.back", "BACK"),
     )

@@ -11,7 +11,7 @@ from itertools import groupby
 from typing import TYPE_CHECKING, Any, ClassVar, Final, Protocol
 
 from rich.segment import Segment
-from textual import events, on, work
+from textual import events, work
 from textual.binding import Binding, BindingType
 from textual.content import Content
 from textual.geometry import Region, Size
@@ -144,20 +144,6 @@ class Drawing(Widget):
         event.stop()
         self.action_zoom(-1)
 
-    def watch_subject(self) -> None:
-        """Redraw for another block, segment or view."""
-        self.redraw()
-
-    def watch_characters(self) -> None:
-        """Redraw in another character set."""
-        self.redraw()
-
-    def watch_heading(self) -> None:
-        """Show another title."""
-        self._frame()
-
-    @on(events.Resize)
-    @on(events.Show)
     def redraw(self) -> None:
         """Make the picture in a worker, unless it is already made or the drawing is hidden."""
         wanted = (self.subject, self.characters, self.size)
@@ -168,6 +154,8 @@ class Drawing(Widget):
             self._show(None)
         else:
             self._make(self.subject, self.size, self.characters)
+
+    watch_subject = watch_characters = on_resize = on_show = redraw
 
     @property
     def _seen(self) -> bool:
@@ -220,6 +208,8 @@ class Drawing(Widget):
         fits = len(together) + 4 <= self.size.width
         self.border_title = Content(together if not framed and fits else self.heading)
         self.border_subtitle = Content(bar if framed else "")
+
+    watch_heading = _frame
 
     def notify_style_update(self) -> None:
         """Recolor the picture after a style change."""
