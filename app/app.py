@@ -23,9 +23,8 @@ from app.documents.document import NcDocument
 from app.documents.paths import current_folder
 from app.documents.service import DocumentService, Opened
 from app.documents.settings import SettingsFile
-from app.screens.base import HEIGHT_CLASSES, WIDTH_CLASSES, BaseScreen
+from app.screens.base import HEIGHT_CLASSES, WIDTH_CLASSES, BaseScreen, OpeningScreen
 from app.screens.contour import ContourScreen
-from app.screens.opening import OpeningScreen
 from app.session.block_findings import Entry
 from app.session.messages import Tone
 from app.session.posting import CENTER_PATH

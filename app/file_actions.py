@@ -355,7 +355,7 @@ class FileActions(DerivationActions):
 
     def action_save_as(self) -> None:
         """Ask for a name to save under."""
-        from app.screens.save_and_open import SaveAsScreen
+        from app.screens.entry_screen import SaveAsScreen
 
         path = self.document.file.path if self.proof is None else self.proof.document.file.path
         name = str(path) if path is not None else f"{self.document.title or 'part'}.toml"
@@ -363,7 +363,7 @@ class FileActions(DerivationActions):
 
     def action_open_path(self) -> None:
         """Ask for the path of a file to open."""
-        from app.screens.save_and_open import OpenPathScreen
+        from app.screens.entry_screen import OpenPathScreen
 
         folder = self.settings.folder
         self.push_screen(OpenPathScreen(f"{folder}/" if folder else ""))
@@ -442,7 +442,7 @@ class FileActions(DerivationActions):
 
     def _leave_save_as(self) -> None:
         """Close SAVE AS, unless the operator left it while waiting for the disk."""
-        from app.screens.save_and_open import SaveAsScreen
+        from app.screens.entry_screen import SaveAsScreen
 
         if isinstance(self.screen, SaveAsScreen):
             self.pop_screen()

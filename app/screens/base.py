@@ -33,11 +33,10 @@ from app.session.session import Session
 from app.session.work import Work
 from app.widgets.drawing import Drawing
 from app.widgets.findings_list import FindingsList
-from app.widgets.progress import Progress
-from app.widgets.prompt import Prompt
+from app.widgets.plain import PlainLabel
 from app.widgets.segment_list import SegmentList
 from app.widgets.softkeys import Softkey, Softkeys
-from app.widgets.status import Status
+from app.widgets.status import Progress, Prompt, Status
 from app.widgets.verdict import Verdict
 from core.program.fields import Field
 from core.units import Kind
@@ -348,3 +347,25 @@ class BaseScreen(Screen[None]):
     def key_acts(self, key: Softkey) -> bool:
         """Return whether a softkey does anything now."""
         return key.acts(self)
+
+
+class OpeningScreen(BaseScreen):
+    """The name of an NC text or a drawing while its screen is loaded: no field takes keys that are not meant for it."""
+
+    MORE_KEYS: ClassVar[tuple[tuple[str, str], ...]] = ()
+
+    def __init__(self, name: str) -> None:
+        super().__init__()
+        self._name_of_file = name
+
+    def compose_body(self) -> ComposeResult:
+        """Lay out the title."""
+        with Horizontal(classes="head"):
+            yield PlainLabel(self._name_of_file, classes="head-title")
+
+    def show_state_on(self, status: Status) -> None:
+        """Show no unit: the file's is not known yet."""
+
+    def prompt_text(self) -> Sentence:
+        """Return what is going on."""
+        return Sentence("The file is being opened.")

@@ -5,16 +5,15 @@ The App holds the current one; every accepted field makes a new one with the pur
 
 from __future__ import annotations
 
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, fields, replace
 from pathlib import Path
 from typing import TYPE_CHECKING
 
 from app.documents.document import ContourDocument
-from app.session.changes import changed
 from core.pipeline.derived import Derived, DerivedBlock
 from core.pipeline.fields_stage import solve_fields
 from core.program.edit import FIRST_START, SEGMENT_FIELD, FormPlace, is_empty
-from core.program.history import History
+from core.program.history import History, splice
 from core.program.model import Block, Program, Segment
 
 if TYPE_CHECKING:
@@ -182,3 +181,35 @@ def nearest_place(program: Program, place: FormPlace) -> FormPlace:
 
 def _kind(program: Program, place: FormPlace) -> type[Segment] | None:
     return type(program.blocks[place.block - 1].segments[place.segment - 1]) if place.segment else None
+
+
+def changed(before: Program, after: Program) -> tuple[FormPlace, str | None] | None:
+    """Return the changed segment in `after`, with the name of its field if exactly one differs.
+
+    None if the unit, no block, or several of equally many blocks differ.
+    """
+    if before.unit is not after.unit:
+        return None
+    blocks = splice(before.blocks, after.blocks)
+    if len(before.blocks) != len(after.blocks):
+        return FormPlace(blocks.at + 1), None
+    return _in_block(blocks.old[0], blocks.new[0], blocks.at + 1) if len(blocks.new) == 1 else None
+
+
+def _in_block(before: Block, after: Block, number: int) -> tuple[FormPlace, str | None]:
+    names = _names(before, after)
+    if "segments" not in names:
+        return FormPlace(number), names[0] if len(names) == 1 else None
+    segments = splice(before.segments, after.segments)
+    here = FormPlace(number, min(segments.at + 1, len(after.segments)))
+    if len(before.segments) != len(after.segments):
+        return here, None
+    names = _names(segments.old[0], segments.new[0])
+    return here, names[0] if len(names) == 1 else None
+
+
+def _names(before: Block | Segment, after: Block | Segment) -> list[str]:
+    """Return the names of the fields that differ; none for two segments of different kinds."""
+    if type(before) is not type(after):
+        return []
+    return [field.name for field in fields(before) if getattr(before, field.name) != getattr(after, field.name)]

@@ -1,4 +1,4 @@
-"""Status is the line with units and free disk space or progress, what is saved, undo and redo, and the clock."""
+"""The last lines of every screen: the prompt, the progress in its place, and the status line below."""
 
 from __future__ import annotations
 
@@ -12,11 +12,13 @@ from typing import Final
 
 from textual.app import ComposeResult
 from textual.containers import Horizontal
-from textual.widgets import Label
+from textual.widgets import Label, ProgressBar
 
 from app.documents.patience import within
+from app.session.messages import Sentence, Tone
 from app.session.session import Session
-from app.widgets.plain import PlainLabel
+from app.session.work import Work
+from app.widgets.plain import PlainLabel, PlainText
 from core.units import Unit
 
 MINUTE = 60.0
@@ -35,8 +37,46 @@ class Surroundings:
     free: Callable[[], int] = lambda: within(0.2, lambda: disk_usage(Path.cwd()).free)
 
 
+class Prompt(PlainText):
+    """Two lines on what the field with the cursor takes, or why something was refused."""
+
+    def __init__(self) -> None:
+        super().__init__(id="prompt")
+        self.sentence = Sentence("")
+
+    def show(self, sentence: Sentence) -> None:
+        """Show a sentence in its tone; do nothing if it is shown already."""
+        if sentence == self.sentence:
+            return
+        if sentence.tone is not self.sentence.tone:
+            for tone in (Tone.WARNING, Tone.ERROR):
+                self.set_class(sentence.tone is tone, f"-{tone}")
+        self.sentence = sentence
+        self.update(sentence.text, layout=False)
+
+
+class Progress(Horizontal):
+    """The bar of the fraction done, and the key that stops the work; in view only while there is work."""
+
+    def compose(self) -> ComposeResult:
+        """Yield the bar and the key."""
+        yield ProgressBar(total=1.0, show_eta=False)
+        yield PlainLabel("Esc stops")
+
+    def show(self, work: Work) -> None:
+        """Show how much of the work is done, and the key as soon as it acts."""
+        if not self.children:
+            # not composed yet
+            return
+        self.query_one(ProgressBar).progress = min(work.done, 1.0)
+        self.query_one(PlainLabel).visible = work.stoppable
+
+
 class Status(Horizontal):
-    """One line; it reads the clock and the free disk space once a minute."""
+    """Units and free disk space or progress, what is saved, undo and redo, and the clock.
+
+    It reads the clock and the disk once a minute.
+    """
 
     def __init__(self, surroundings: Surroundings) -> None:
         super().__init__(id="status")

@@ -17,9 +17,7 @@ import app.screens.post as post_module
 from app.documents.document import NcDocument
 from app.documents.nc_text import NcText
 from app.session import work
-from app.widgets.progress import Progress
-from app.widgets.prompt import Prompt
-from app.widgets.status import Status
+from app.widgets.status import Progress, Prompt, Status
 from core.program.edit import FormPlace
 from core.progress import Stopped
 from tests.app.widget_pilot import Operator, operator

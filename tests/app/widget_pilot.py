@@ -26,8 +26,7 @@ from app.screens.base import BaseScreen
 from app.session.session import Session
 from app.terminal.key_order import KeyOrder
 from app.widgets.field import FieldRow
-from app.widgets.prompt import Prompt
-from app.widgets.status import Surroundings
+from app.widgets.status import Prompt, Surroundings
 from core.program.edit import FormPlace
 from core.program.model import Program
 

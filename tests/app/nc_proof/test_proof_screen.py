@@ -22,9 +22,9 @@ from app.nc_proof.listing import Listing
 from app.nc_proof.runs import Question as Asking
 from app.nc_proof.runs import RanDotted, Result, first_tool, header_tools, likely_control, read_tools, run
 from app.nc_proof.screen import ProofScreen, read_tool
+from app.screens.base import OpeningScreen
 from app.screens.dialogs import Question
 from app.screens.home import HomeScreen
-from app.screens.opening import OpeningScreen
 from app.session.session import Session
 from app.session.work import Work
 from app.widgets.drawing import Drawing

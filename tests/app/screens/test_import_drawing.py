@@ -23,7 +23,7 @@ from app.screens.import_drawing import ImportScreen
 from app.session.messages import Tone
 from app.session.session import Session
 from app.widgets.contour_table import ContourTable
-from app.widgets.prompt import Prompt
+from app.widgets.status import Prompt
 from core.importing.contour import Contour
 from core.importing.contours import ContourList
 from core.program.edit import FormPlace
