@@ -12,7 +12,7 @@ import numpy as np
 from core.controls.control_run import Stretch
 from core.controls.repeated_passes import path_key
 from core.geometry.distance import distance, foot
-from core.geometry.path import Floats, Path, Rows, coordinates
+from core.geometry.path import Floats, Path, Rows, coordinates, joined
 from core.geometry.piece_arrays import at, direction, piece_arrays
 from core.tolerance import CLOSED
 
@@ -69,6 +69,14 @@ def _joins_by_arcs(path: Path, rows: RowRange) -> bool:
     return _blends(path, range(first - 1, first + 1)) and _blends(path, range(last, last - 2, -1))
 
 
+def _links_passes(path: Path, rows: RowRange) -> bool:
+    """True if arcs of at most half a turn lead out and back in between two passes longer than these rows."""
+    first, last = rows
+    if not _joins_by_arcs(path, rows) or max(np.abs(path.sweeps[[first, last - 1]])) > pi + MAX_TANGENT_ANGLE:
+        return False
+    return bool(path.lengths[first:last].sum() < min(path.lengths[:first].sum(), path.lengths[last:].sum()))
+
+
 def closed_passes(path: Path, contour: RowRange) -> tuple[RowRange, ...]:
     """Return the closed runs of a contour that passes its first point again, else the contour.
 
@@ -84,10 +92,12 @@ def closed_passes(path: Path, contour: RowRange) -> tuple[RowRange, ...]:
 
 
 def _passes_between_leads(path: Path, contour: RowRange) -> tuple[RowRange, ...]:
-    """Return the passes of a contour that begins at a point to which leads return after each pass, if it does."""
-    passes = closed_passes(path, contour)
-    ends = [contour[0], *(row for rows in passes for row in rows), contour[1]]
-    return passes if all(first < second for first, second in pairwise(ends)) else ()
+    """Return the passes of a contour that begins at a point to which leads return after each pass, if it does.
+
+    The leads may also be a run of their own from that point: an arc out of a pass, and an arc into the next one.
+    """
+    passes = tuple(rows for rows in closed_passes(path, contour) if not _links_passes(path, rows))
+    return passes if len(passes) > 1 and all(end < begin for (_, end), (begin, _) in pairwise(passes)) else ()
 
 
 def between_lead_arcs(path: Path, contour: RowRange, stretch: Stretch, *, cut_short: bool) -> RowRange:
@@ -137,10 +147,23 @@ def split_where_it_closes(path: Path) -> SplitContours:
         back = _split_at_start(path.reversed())
         split = None if back is None else (back[0].reversed(), back[1].reversed())
     if split is None:
-        path = _split_at_corner(path) or path
-        return SplitContours(path, contours_of(path))
+        path = _split_at_corner(path) or _split_at_laps(path)
+        return _split_open_contours(path, contours_of(path))
     straight, closing = split
-    return SplitContours(straight, contours_of(closing))
+    return _split_open_contours(straight, contours_of(closing))
+
+
+def _split_open_contours(path: Path, contours: tuple[RowRange, ...]) -> SplitContours:
+    """Split the open contours among several in the same way, each by itself."""
+    parts, divided, done, added = list[Path](), list[RowRange](), 0, 0
+    for first, last in contours:
+        part = path.part(first, last)
+        alone = len(contours) == 1 or is_closed(path, (first, last))
+        split = SplitContours(part, ((0, len(part)),)) if alone else split_where_it_closes(part)
+        parts += [path.part(done, first), split.path]
+        divided += [(begin + first + added, end + first + added) for begin, end in split.contours]
+        done, added = last, added + len(split.path) - len(part)
+    return SplitContours(joined([*parts, path.part(done, len(path))]), tuple(divided))
 
 
 def _split_at_start(path: Path) -> tuple[Path, Path] | None:
@@ -173,6 +196,24 @@ def _split_at_corner(path: Path) -> Path | None:
             split = _split(directed, np.array([row]), directed.points[1:2])
             return split.reversed() if is_reversed else split
     return None
+
+
+def _split_at_laps(path: Path) -> Path:
+    """Split the first and the last line where a lap between them has a corner, and runs on or comes along that line."""
+    if len(path) < 4:
+        return path
+    for is_last in (False, True):
+        row, ways = (len(path) - 1, path.end_directions[:-1]) if is_last else (0, path.start_directions[1:])
+        start, end = path.points[row], path.points[row + 1]
+        length, along = float(path.lengths[row]), path.start_directions[row]
+        arms = path.points[1:-1] - start
+        reach, off = arms @ along, arms @ np.array((-along[1], along[0]))
+        over = (reach > CLOSED) & (reach < length - CLOSED) & (np.abs(off) <= CLOSED)
+        corners = np.flatnonzero(over & (ways @ along > cos(MAX_TANGENT_ANGLE)))
+        if not path.turns[row] and len(corners):
+            place = start + (end - start) * reach[corners[0]] / length
+            path = _split(path, np.array([row]), place[None])
+    return path
 
 
 def _running_over(path: Path, point: Floats, way: Floats) -> tuple[Rows, Floats]:

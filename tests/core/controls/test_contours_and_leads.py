@@ -141,6 +141,8 @@ FRAME = "G21 G17 G40 G90 F400\nT1 M6\nG0 X{start}\nG1 Z-3.\n{cut}\nM30\n"
 ARC_IN = "G41 D1 G1 X-10. Y10.\nG3 X0. Y20. R10.\nG1 Y50.\nX80.\nY0.\n"
 LAP = "Y50.\nX80.\nY0.\nX0.\n"
 OUT = "G40 X-30."
+LINK = "Y20.\nG3 X-12. Y32. R12.\nG1 Y8.\nG3 X0. Y20. R12.\nG1 "
+"""Arcs out of a pass and into the next one."""
 GOOD = {
     "an overlap, an arc and a line": ("-30. Y10.", f"{ARC_IN}X0.\nY25.\nG3 X-10. Y35. R10.\nG1 X-20.\n{OUT}"),
     "from beyond the corner": ("-30. Y-30.", f"G41 D1 X0. Y-20.\n{LAP}Y20.\nG3 X-10. Y30. R10.\nG1 {OUT}"),
@@ -150,6 +152,8 @@ GOOD = {
     "straight on from the last wall": ("-30. Y-30.", f"G41 D1 X0. Y-20.\nY0.\n{LAP}Y-20.\nG40 X-30. Y-30."),
     "off a corner and back": ("-40. Y-40.", f"G41 D1 X-15. Y-15.\nX0. Y0.\n{LAP}X-15. Y-15.\nG40 X-40. Y-40."),
     "two laps": ("-30. Y20.", f"{ARC_IN}X0.\n{LAP}Y25.\nG3 X-10. Y35. R10.\nG1 {OUT}"),
+    "two laps from beyond the corner": ("-30. Y-30.", f"G41 D1 X0. Y-20.\n{LAP}Y50.\nX80.\nY0.\nX-20.\n{OUT} Y-30."),
+    "arcs out and in between two passes": ("-30. Y20.", f"{ARC_IN}X0.\n{LINK}{LAP}Y20.\nG3 X-10. Y30. R10.\nG1 {OUT}"),
 }
 """The start and the blocks of programs that do not gouge an 80 by 50 plate."""
 
@@ -165,6 +169,12 @@ def test_leads_and_laps_of_good_programs_do_not_gouge(name: str, control: str) -
     assert result.verdict.clean
     # a square lead-out leaves a cusp
     assert result.verdict.uncut_length <= 10.0 + 1e-6
+
+
+def test_arcs_between_two_passes_that_lead_into_the_part_gouge_it() -> None:
+    start, cut = GOOD["arcs out and in between two passes"]
+    link = "Y20.\nG2 X12. Y32. R12.\nG1 Y8.\nG2 X0. Y20. R12.\nG1 "
+    assert errors(FRAME.format(start=start, cut=cut.replace(LINK, link)), "fanuc:a", t1=10.0)
 
 
 ROUND = {
@@ -290,6 +300,13 @@ def test_three_pieces_next_to_a_closed_contour_are_a_contour() -> None:
     path = lines_through(*RING, (-1, 1), (-2, 1), (-2, 4))
     assert contours_of(path) == ((0, 3), (3, 6))
     assert contour_of(path) == (0, 6)
+
+
+@pytest.mark.parametrize("control", CONTROLS)
+def test_a_later_contour_that_overlaps_its_start_closes_there(control: str) -> None:
+    rings = "X14.\nY14.\nX-14.\nY-14.\nX0.\nY-20.\nX20.\nY20.\nX-20.\nY-20.\nX5.\n"
+    program = f"G21 G17 G90 F100\nG0 X0. Y0.\nG1 Z-3.\nG41 D1 G1 X0. Y-14.\n{rings}G40 X0. Y0.\nM2\n"
+    assert not errors(program, control, t1=10.0)
 
 
 def test_two_closed_contours_are_separated_from_the_moves_between_them() -> None:
