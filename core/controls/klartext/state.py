@@ -31,6 +31,10 @@ AXIS_WORDS: Final[Mapping[str, tuple[int, bool]]] = {name: (index, False) for in
 """Axis words: the index of the axis, and True if the value counts from the last programmed position."""
 
 SIDE_WORDS: Final[Mapping[str, int]] = {"R0": 0, "RL": 1, "RR": -1}
+EMPTY_WORDS: Final = frozenset("RFM")
+"""Words that old controls show in every block, without a value where nothing changes."""
+
+EMPTY_WORD_TEXT: Final = "{name} without a value changes nothing, as the TNC 155 and its relatives write it."
 COMMON_WORDS: Final = frozenset(("R0", "RL", "RR", "F", "FMAX", "FAUTO", "M", "LA", "MB", "MAX"))
 FEED_WORDS: Final = frozenset(("F", "FMAX", "FAUTO"))
 ROTARY_AXES: Final = frozenset("ABC")
@@ -93,6 +97,7 @@ class State:
     offset: float = 0.0
     ahead: int = 0
     reported_cycles: set[int] = field(default_factory=set)
+    reported_empty: bool = False
     last: Element | None = None
 
     def note_spindle(self) -> None:
@@ -115,6 +120,11 @@ class State:
             name = joined_name(written)
             if name == "R" and number == "0":
                 name, number = "R0", ""
+            if name in EMPTY_WORDS and not number and not junk and self._is_empty(name, allowed):
+                if not self.reported_empty:
+                    self.tell(Severity.INFO, "INTERPRETED", EMPTY_WORD_TEXT.format(name=name), block, name)
+                self.reported_empty = True
+                continue
             if name not in allowed and name in ROTARY_AXES and number and self.value(number, block, name) == 0.0:
                 self.tell(Severity.INFO, "AXIS", "Rotary axes at 0 tilt nothing and are skipped.", block, name)
                 continue
@@ -126,6 +136,11 @@ class State:
                 self.stop("TWICE", f"{name} is written twice in this block. Keep one.", block, name)
             words[name] = number
         return words
+
+    @staticmethod
+    def _is_empty(name: str, allowed: frozenset[str]) -> bool:
+        """True if a word without a value leaves what is in force, and does not lack the value it needs."""
+        return name in allowed if name != "R" else "R" not in allowed and "R0" in allowed
 
     def _unknown(self, block: Block, name: str, number: str) -> NoReturn:
         code = "BEYOND"

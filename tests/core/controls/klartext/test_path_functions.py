@@ -31,6 +31,12 @@ def test_fmax_applies_to_its_block_and_f_to_all_blocks_after_it() -> None:
     assert [(move.rapid, move.feed) for move in run.moves][1:] == [(False, 300), (True, 300), (False, 300)]
 
 
+def test_old_listings_write_r_f_and_m_without_a_value_where_nothing_changes() -> None:
+    run = runs(START, "L X+1,000 R F300 M", "L X+2,000 R F M", "CC X+2,000 Y+1,000", "C X+3,000 Y+1,000 DR+ R F M")
+    assert [(move.rapid, move.feed) for move in run.moves][1:] == [(False, 300)] * 3
+    assert codes(run) == [("INTERPRETED", 5)]
+
+
 def test_fauto_is_the_feed_of_the_tool_call() -> None:
     run = clean("TOOL CALL 1 Z F250", START, "L X+1 FAUTO")
     assert run.moves[1].feed == 250
