@@ -442,6 +442,10 @@ class Word(NamedTuple):
     column: int
 
 
+POLAR: Final = frozenset("@^")
+POLAR_TEXT: Final = "cutcomp does not follow @ and ^, polar coordinates. Write X and Y."
+
+
 def evaluated_line(line: CompactText, number: int, values: MacroParameters, log: Log) -> list[Word]:
     """Return a line's words with the values of their expressions; set the parameters that the line sets.
 
@@ -480,6 +484,8 @@ def _item(reader: ExpressionReader, line: CompactText, words: list[Word], settin
         value = reader.value()
         number = exact(value) if reader.values.kept is ParameterStore.NGC else plain(value)
         words.append(Word(first, number, line.column(begin)))
+    elif first in POLAR and reader.values.kept is ParameterStore.NGC:
+        raise FaultError("BEYOND", POLAR_TEXT, begin)
     else:
         raise FaultError("WORD", not_a_word(text[begin:]), begin)
 

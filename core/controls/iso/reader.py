@@ -14,7 +14,16 @@ from typing import Final
 
 from core.controls.control_run import Log
 from core.controls.iso.code_support import CONTROLS_WITH_EXPRESSIONS, CONTROLS_WITH_JUMPS, only_on
-from core.controls.iso.expressions import COMMENT_GAP, CompactText, MacroParameters, Word, evaluated_line, not_a_word
+from core.controls.iso.expressions import (
+    COMMENT_GAP,
+    POLAR,
+    POLAR_TEXT,
+    CompactText,
+    MacroParameters,
+    Word,
+    evaluated_line,
+    not_a_word,
+)
 from core.controls.program_text import capitals, quoted
 from core.finding import Severity
 from core.tolerance import LARGEST_COORDINATE
@@ -301,6 +310,8 @@ def _fault(block: Block, bare: str, log: Log, syntax: Syntax) -> None:
     if syntax.corners and rest.startswith(","):
         text = f"cutcomp does not follow {quoted(rest)} on this control. Write the corner's moves."
         log.stop("BEYOND", text, block.line, column)
+    if syntax.strict and rest[:1] in POLAR:
+        log.stop("BEYOND", POLAR_TEXT, block.line, column)
     if rest.startswith("("):
         log.stop("COMMENT", "The comment is not closed; write the closing bracket.", block.line, column)
     if rest.startswith("/"):

@@ -352,3 +352,9 @@ def test_a_move_as_short_as_a_rounding_error_is_a_move(tmp_path: Path) -> None:
 def test_line_ends_of_cr_only_are_refused() -> None:
     assert ran(b"G21 G0 X1\rY2\nM2\n", "linuxcnc").stopped_at == 1
     assert ran(b"G21 G0 X1\r\nY2\r\nM2\r\n", "linuxcnc").stopped_at is None
+
+
+@pytest.mark.parametrize("word", ["@50 ^180", "@[20+30] ^180", "^#1"])
+def test_polar_coordinates_are_not_followed(word: str) -> None:
+    (finding,) = findings_of(ran(f"G21 G90\nG1 {word} F300\nM2\n", "linuxcnc"), "BEYOND")
+    assert (finding.line, finding.column) == (2, 4)
