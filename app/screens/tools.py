@@ -21,7 +21,7 @@ from app.widgets.plain import PlainLabel, PlainText
 from app.widgets.softkeys import Softkey
 from core.pipeline.derived import DerivedBlock
 from core.program.edit import Edited, Refused, delete_tool, set_tool
-from core.program.fields import TOOL, Field, read_typed
+from core.program.fields import TOOL, Field, Form, field_of, read_typed
 from core.program.model import Coolant, Number, Program, Tool, Typed
 from core.program.solve.solved import Value
 from core.units import Kind, Unit
@@ -176,6 +176,9 @@ class ToolsScreen(FormScreen):
 
     async def _rebuild(self) -> None:
         """Rebuild the rows after tools were added or deleted; the cursor keeps its row, or goes to a new tool."""
+        if len(self.query(ToolRow)) == len(self.current_session.program.tools):
+            self.show_session(self.current_session)
+            return
         numbers = [tool.number for tool in self.current_session.program.tools]
         new = [row for row, number in enumerate(numbers) if number not in self._numbers]
         row = new[0] if len(new) == 1 else self.row
@@ -302,6 +305,11 @@ def _typed(program: Program, tool: Tool, field: Field, text: str) -> Edited:
     name = field.name.partition(NAME_SEPARATOR)[0]
     if name == "number":
         return _renumbered(program, tool, read_typed(text, field, program.unit))
+    if name == "type" and isinstance(read_typed(text, field_of(Form.TOOL, "diameter"), program.unit), Number):
+        kept = f"Esc brings {tool.type} back" if tool.type else "Esc blanks it"
+        return Refused(
+            f"TYPE takes a name such as END MILL, not a number such as {text.strip()}. {kept}; DIAMETER is next."
+        )
     plain = field.kind in (Kind.TEXT, Kind.CHOICE)
     value: Any = text.strip() if plain else read_typed(text, field, program.unit)
     if name == "coolant":

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+from asyncio import sleep
 from dataclasses import replace
 
 import pytest
@@ -13,6 +14,7 @@ from app.documents.files import load
 from app.documents.programs import empty_program, example
 from app.screens.contour import ContourScreen
 from app.screens.dialogs import Question
+from app.screens.tools import ToolRow, ToolsScreen
 from app.widgets.field import NumberField
 from core.program.file.read import loads
 from core.program.model import CutterComp, Number
@@ -46,6 +48,29 @@ async def test_an_impossible_speed_stays_marked_on_tool_setup(user: Operator):
         await user.press("shift+tab")
     await user.press("'3000", "enter")
     assert user.session.program.tools[0].speed == Number(3000.0)
+
+
+async def test_a_number_typed_as_a_tools_type_is_refused(user: Operator):
+    await user.press("f6", "tab", "'.25", "enter")
+    assert user.at == "type@0"
+    assert user.prompt == (
+        "TYPE takes a name such as END MILL, not a number such as .25. Esc brings END MILL back; DIAMETER is next."
+    )
+    assert user.session.program.tools[0].type == "END MILL"
+    await user.press("escape", "'1/4 end mill", "enter")
+    assert user.session.program.tools[0].type == "1/4 end mill"
+
+
+async def test_a_calculation_that_ends_at_once_leaves_the_cursor_on_the_diameter_of_a_new_tool(user: Operator):
+    await user.press("f6")
+    assert isinstance(user.screen, ToolsScreen)
+    user.screen.action_add_tool()
+    while len(user.screen.query(ToolRow)) == 1:
+        await sleep(0)
+    user.screen.show_session(user.session)
+    await user.settle()
+    assert user.at == "diameter@1"
+    assert user.prompt.startswith("Tool 2 added. Type its DIAMETER.")
 
 
 async def test_a_mistyped_speed_of_tool_setup_is_named_on_start_and_stays_marked_while_another_tool_has_the_cursor(
