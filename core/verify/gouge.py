@@ -18,7 +18,7 @@ from core.verify.pairs import Pairs, measured, uneven_slack
 from core.verify.stretches import NO_STRETCHES, Parts, Stretches, joined, union, within
 from core.verify.verdict import Approach, Gouge
 
-PAIRS_AT_A_TIME: Final = 2_500
+PAIRS_AT_A_TIME: Final = 2_000
 """Gouging pairs that are processed at a time."""
 
 LOOP_GAP: Final = 1.0
