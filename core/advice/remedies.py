@@ -178,8 +178,7 @@ def start_at_end(setup: CuttingSetup, progress: Progress = silent) -> StartMoved
     if setup.closed or len(surface) < FEWEST_CLOSED or surface.turns[0] or float(gap.min()) > CLOSED:
         return None
     points = np.concatenate((surface.points[-1:], surface.points[1:]))
-    centers = np.concatenate((points[:1], surface.centers[1:]))
-    closed = replace(setup, surface=Path.of(points, centers, surface.turns, surface.numbers), closed=True)
+    closed = replace(setup, surface=Path.of(points, surface.centers, surface.turns, surface.numbers), closed=True)
     row = _recommended(closed, progress)
     x, y = points[0].tolist()
     return None if row is None else StartMoved(float(surface.numbers[0]), (x, y), row.value, row.effect)
@@ -197,4 +196,4 @@ def restarted(contour: Path, row: int) -> Path:
     points = np.concatenate((at, contour.points[row + 1 :], contour.points[1 : row + 1], at))
     turns = np.concatenate((contour.turns[row:], contour.turns[: row + 1]))
     centers = np.concatenate((contour.centers[row:], contour.centers[: row + 1]))
-    return Path.of(points, np.where(turns[:, None] == 0, points[:-1], centers), turns)
+    return Path.of(points, centers, turns)

@@ -149,9 +149,8 @@ def _what_is_left(chain: RawChain, left: _Left) -> tuple[Path, tuple[Rows, Rows]
     bridges = alive[chain.parts[alive] >= RawPart.BRIDGE]
     if not len(alive):
         return EMPTY, (bridges, alive)
-    turns = chain.raw.turns[alive]
-    centers = np.where(turns == 0, starts[:-1], as_complex(chain.raw.centers)[alive])
-    path = Path(coordinates(starts), coordinates(centers), turns, chain.raw.numbers[alive])
+    raw = chain.raw
+    path = Path.of(coordinates(starts), raw.centers[alive], raw.turns[alive], raw.numbers[alive])
     return path, (bridges, alive)
 
 

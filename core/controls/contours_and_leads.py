@@ -240,11 +240,8 @@ def _running_over(path: Path, point: Floats, way: Floats) -> tuple[Rows, Floats]
 
 def _split(path: Path, rows: Rows, places: Floats) -> Path:
     """Return the path with pieces split in two at places (m, 2); both halves keep the piece's number."""
-    after = rows + 1
-    centers = np.where(path.turns[rows, None] == 0, places, path.centers[rows])
-    points, centers = np.insert(path.points, after, places, axis=0), np.insert(path.centers, after, centers, axis=0)
-    turns, numbers = np.insert(path.turns, after, path.turns[rows]), np.insert(path.numbers, after, path.numbers[rows])
-    return Path.of(points, centers, turns, numbers)
+    points, twice = np.insert(path.points, rows + 1, places, axis=0), np.insert(np.arange(len(path)), rows + 1, rows)
+    return Path.of(points, path.centers[twice], path.turns[twice], path.numbers[twice])
 
 
 def has_long_leads(path: Path, contours: tuple[RowRange, ...]) -> bool:

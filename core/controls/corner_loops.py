@@ -90,6 +90,4 @@ def _cut_short(contour: Path, first: int, last: int, at: Floats) -> Path:
     """Return the contour from row `first` straight to row `last` at a point where both cross."""
     points = np.concatenate((contour.points[: first + 1], at[None], contour.points[last + 1 :]))
     rows = [*range(first + 1), *range(last, len(contour))]
-    turns, numbers = contour.turns[rows], contour.numbers[rows]
-    centers = np.where(turns[:, None] == 0, points[:-1], contour.centers[rows])
-    return Path.of(points, centers, turns, numbers)
+    return Path.of(points, contour.centers[rows], contour.turns[rows], contour.numbers[rows])

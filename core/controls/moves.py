@@ -137,10 +137,8 @@ class Moves:
         turns = np.where(self.planes[1:] == plane, self.turns[1:], 0).astype(np.int8)
         moving = np.any(ends[1:] != ends[:-1], axis=1) | (turns != 0)
         points = np.vstack((ends[:1], ends[1:][moving]))
-        turns = turns[moving]
-        centers = self.centers[1:][moving][:, [first, second]]
-        centers = np.where(turns[:, None] == 0, points[:-1], centers)
-        return Path.of(points, centers, turns, self.lines[1:][moving].astype(np.float64))
+        centers, numbers = self.centers[1:][moving][:, [first, second]], self.lines[1:][moving].astype(np.float64)
+        return Path.of(points, centers, turns[moving], numbers)
 
 
 def runs_of(flags: Flags) -> list[Rows]:

@@ -49,9 +49,8 @@ def without_repeats(path: Path) -> Path:
     if len(rows) == len(path):
         return path
     # a piece starts where the one before it ends, which may move the start by rounding
-    points, turns = np.concatenate((path.points[:1], path.ends[rows])), path.turns[rows]
-    centers = np.where(turns[:, None] == 0, points[:-1], path.centers[rows])
-    return Path.of(points, centers, turns, path.numbers[rows])
+    points = np.concatenate((path.points[:1], path.ends[rows]))
+    return Path.of(points, path.centers[rows], path.turns[rows], path.numbers[rows])
 
 
 def _piece_names(path: Path) -> Rows:

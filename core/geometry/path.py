@@ -50,14 +50,13 @@ class Path:
 
     @staticmethod
     def of(points: Floats, centers: Floats, turns: Turns, numbers: Floats | None = None) -> Path:
-        """Make a path of these arrays, made contiguous; numbers are 1 ... n unless given."""
-        count = len(turns)
-        return Path(
-            np.ascontiguousarray(points, np.float64).reshape(-1, 2),
-            np.ascontiguousarray(centers, np.float64).reshape(-1, 2),
-            np.ascontiguousarray(turns, np.int8),
-            np.arange(1.0, count + 1.0) if numbers is None else np.ascontiguousarray(numbers, np.float64),
-        )
+        """Make a path of these arrays, made contiguous; the centers of lines may be anything but are their starts then.
+
+        Numbers are 1 ... n unless given.
+        """
+        points, turns = np.ascontiguousarray(points, np.float64).reshape(-1, 2), np.ascontiguousarray(turns, np.int8)
+        numbers = np.arange(1.0, len(turns) + 1.0) if numbers is None else np.ascontiguousarray(numbers, np.float64)
+        return Path(points, np.where(turns[:, None] == 0, points[:-1], centers), turns, numbers)
 
     @staticmethod
     def from_pieces(pieces: Sequence[Piece], numbers: Sequence[float] | None = None) -> Path:
@@ -149,8 +148,7 @@ class Path:
     def reversed(self) -> Path:
         """Return the same pieces traveled the other way; numbers stay with their pieces."""
         order = slice(None, None, -1)
-        centers = np.where(self.turns[:, None] == 0, self.ends, self.centers)
-        return Path.of(self.points[order], centers[order], -self.turns[order], self.numbers[order])
+        return Path.of(self.points[order], self.centers[order], -self.turns[order], self.numbers[order])
 
     def without(self, rows: Rows) -> Path:
         """Return the path without `rows`, pieces of no length; each piece then starts where the one before it ends.

@@ -220,6 +220,10 @@ def traveled(arc: PieceArrays, directions: Points) -> Floats:
 def place(pieces: PieceArrays, stations: Floats, s: Floats) -> tuple[Rows, Floats]:
     """Return piece and fraction at the lengths `s` along the whole path; at a joint the piece that begins there."""
     index = stations[1:-1].searchsorted(s, side="right")
-    length = pieces.length.take(index)
-    t = (s - stations.take(index)) / np.where(length == 0.0, 1.0, length)
-    return index, np.minimum(np.maximum(t, 0.0), 1.0)
+    return index, fraction(s - stations.take(index), pieces.length.take(index))
+
+
+def fraction(traveled_on: Floats, length: Floats) -> Floats:
+    """Return the fractions, within 0 ... 1, of pieces of these lengths (n,) after (..., n) lengths traveled on them."""
+    share: Floats = np.clip(traveled_on / np.where(length == 0.0, 1.0, length), 0.0, 1.0)
+    return share

@@ -6,7 +6,7 @@ A field's `name` is its attribute in the model and its key in the program file.
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Iterable, Mapping
 from dataclasses import dataclass
 from enum import StrEnum
 from math import isfinite
@@ -104,8 +104,12 @@ def _count(name: str, label: str, prompt: str, low: float, high: float) -> Field
     return Field(name, label, Kind.COUNT, prompt, low, high)
 
 
+def _choice(name: str, label: str, prompt: str, choices: Iterable[str]) -> Field:
+    return Field(name, label, Kind.CHOICE, prompt, choices=tuple(choices))
+
+
 def _coolant(prompt: str) -> Field:
-    return Field("coolant", "COOLANT", Kind.CHOICE, prompt, choices=tuple(Coolant))
+    return _choice("coolant", "COOLANT", prompt, Coolant)
 
 
 _FEED: Final = _feed(
@@ -117,23 +121,11 @@ _X_END: Final = _place("x_end", "X END", "X of the end of this segment. I5: 5 fr
 _Y_END: Final = _place("y_end", "Y END", "Y of the end of this segment. I5: 5 from its start.", relative=True)
 _Z_END: Final = _place("z_end", "Z END", "Z at the end of this segment. Blank: as the segment before.")
 
-_TANGENT: Final = Field(
-    "tangent",
-    "TANGENT",
-    Kind.CHOICE,
-    "YES: smooth from the segment before. Space switches.",
-    choices=("NO", "YES"),
-)
+_TANGENT: Final = _choice("tangent", "TANGENT", "YES: smooth from the segment before. Space switches.", ("NO", "YES"))
 
 START: Final = (
     _count("tool", "TOOL", "Tool number. Space lists the tools.", 1, 9999),
-    Field(
-        "cutter_comp",
-        "CUTTER COMP.",
-        Kind.CHOICE,
-        "Side of the tool, seen along travel. Space lists.",
-        choices=tuple(CutterComp),
-    ),
+    _choice("cutter_comp", "CUTTER COMP.", "Side of the tool, seen along travel. Space lists.", CutterComp),
     _count("finish_tool", "FINISH TOOL", "Tool for the finish pass; 0 = none.", 0, 9999),
     _place("x_start", "X START", "X where the contour starts."),
     _place("y_start", "Y START", "Y where the contour starts."),
@@ -162,13 +154,7 @@ LINE: Final = (
 )
 
 ARC: Final = (
-    Field(
-        "direction",
-        "DIRECTION",
-        Kind.CHOICE,
-        "Direction of travel along the arc.",
-        choices=tuple(Direction),
-    ),
+    _choice("direction", "DIRECTION", "Direction of travel along the arc.", Direction),
     _X_END,
     _Y_END,
     _Z_END,
@@ -226,13 +212,7 @@ PARAMETERS: Final = (
     _allowance("max_offset", "MAX OFFSET", "How far outside the contour PROFILE passes begin."),
     _size("retract_clearance", "RETRACT CLEARANCE", "How far above Z START the tool moves between pecks."),
     _allowance("peck_clearance", "PECK CLEARANCE", "How far above the last depth a rapid down stops."),
-    Field(
-        "path",
-        "PATH",
-        Kind.CHOICE,
-        "Path to post. CONTROL: as the look-ahead makes it. BEST: the true offset.",
-        choices=tuple(PathChoice),
-    ),
+    _choice("path", "PATH", "Path to post. CONTROL: as the look-ahead makes it. BEST: the true offset.", PathChoice),
     _feed("rapid_feed", "RAPID RATE", "Rapid rate of the machine a minute; only for the times."),
 )
 

@@ -19,7 +19,7 @@ import numpy as np
 from core.geometry.distance import between, distance, farthest_fractions
 from core.geometry.nearby import changes
 from core.geometry.path import Floats, Points, Rows
-from core.geometry.piece_arrays import PieceArrays, at
+from core.geometry.piece_arrays import PieceArrays, at, fraction
 from core.tolerance import ON_PATH
 from core.verify.pairs import Pairs, nearest
 from core.verify.stretches import Stretches
@@ -109,8 +109,7 @@ def _begin(pairs: Pairs, stretches: Stretches) -> tuple[_Spans, Farthest]:
     """Split the stretches at the joints within them; return the parts and the farthest of their ends."""
     parts = stretches.cut(pairs.stations[1:-1])
     owner, index = stretches.index(parts.middle), pairs.stations[1:-1].searchsorted(parts.middle, side="right")
-    length = np.where(pairs.pieces.length[index] == 0.0, 1.0, pairs.pieces.length[index])
-    t = np.clip((np.array((parts.first, parts.last)) - pairs.stations[index]) / length, 0.0, 1.0)
+    t = fraction(np.array((parts.first, parts.last)) - pairs.stations[index], pairs.pieces.length[index])
     none = np.full(len(stretches), -1)
     best = Farthest(stretches.first, none.astype(np.complex128), np.full(len(stretches), -inf), none)
     twice = np.tile(index, 2)

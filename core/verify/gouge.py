@@ -12,7 +12,7 @@ import numpy as np
 from core.geometry.distance import between, foot, nearest_fractions
 from core.geometry.nearby import changes
 from core.geometry.path import Floats, Path, Rows, coordinates
-from core.geometry.piece_arrays import PieceArrays, at, blocks
+from core.geometry.piece_arrays import PieceArrays, at, blocks, fraction
 from core.tolerance import GOUGE, JOINED, ON_PATH
 from core.verify.pairs import Pairs, measured, uneven_slack
 from core.verify.stretches import NO_STRETCHES, Parts, Stretches, joined, union, within
@@ -97,8 +97,7 @@ def closest(pairs: Pairs, surface: Path) -> Approach | None:
     spots, apart, pair = approaches(pairs, rows, np.full(len(rows), inf))
     first = np.lexsort((pairs.j[pair], np.round(spots / ON_PATH), apart > least + GOUGE))[:1]
     piece, wall = pairs.pieces.take(pairs.i[pair[first]]), pairs.others.take(pairs.j[pair[first]])
-    length = np.where(piece.length == 0.0, 1.0, piece.length)
-    center = at(piece, np.clip((spots[first] - pairs.stations[pairs.i[pair[first]]]) / length, 0.0, 1.0))
+    center = at(piece, fraction(spots[first] - pairs.stations[pairs.i[pair[first]]], piece.length))
     cut = at(wall, foot(wall, center))
     (x, y), (u, v) = coordinates(center)[0].tolist(), coordinates(cut)[0].tolist()
     return Approach(float(least), (x, y), (u, v), float(surface.numbers[wall.rows[0]]))
@@ -129,9 +128,7 @@ def gouges(hits: Gouging, pairs: Pairs, radius: float, surface: Path, numbers: F
     if not len(hits):
         return ()
     piece, wall = pairs.pieces.take(hits.i), pairs.others.take(hits.j)
-    length = np.where(piece.length == 0.0, 1.0, piece.length)
-    t = (hits.place - pairs.stations[hits.i]) / length
-    points = at(piece, np.minimum(np.maximum(t, 0.0), 1.0))
+    points = at(piece, fraction(hits.place - pairs.stations[hits.i], piece.length))
     cut = at(wall, foot(wall, points))
     columns = (
         radius - hits.apart,

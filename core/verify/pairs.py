@@ -45,17 +45,9 @@ class Pairs:
 
     def keep(self, rows: Rows) -> Pairs:
         """Return the pairs of these indices."""
-        return Pairs(
-            self.pieces,
-            self.others,
-            self.stations,
-            self.i[rows],
-            self.j[rows],
-            self.grant[rows],
-            self.least[rows],
-            self.from_piece[:, rows],
-            self.from_other[:, rows],
-        )
+        i, j, grant, least = self.i[rows], self.j[rows], self.grant[rows], self.least[rows]
+        from_piece, from_other = self.from_piece[:, rows], self.from_other[:, rows]
+        return Pairs(self.pieces, self.others, self.stations, i, j, grant, least, from_piece, from_other)
 
 
 class NotMeasurableError(ArithmeticError):

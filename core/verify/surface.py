@@ -212,22 +212,18 @@ def _may_be_walls(walls: PieceArrays, outward: range, beyond: float, most: float
 def _between(path: Path, begin: int, end: int, at: Point) -> Path:
     """Return the path from row `begin` to row `end`, started and ended at point `at`; other pieces get no length."""
     ended = _ended_at(path, end, np.array(at))
-    points, centers, turns = ended.points.copy(), ended.centers.copy(), ended.turns.copy()
+    points, turns = ended.points.copy(), ended.turns.copy()
     points[: begin + 1] = at
     turns[:begin] = 0
-    lines = turns == 0
-    centers[lines] = points[:-1][lines]
-    return Path(points, centers, turns, path.numbers)
+    return Path.of(points, path.centers, turns, path.numbers)
 
 
 def _ended_at(path: Path, row: int, at: Floats) -> Path:
     """Return the path with piece `row` ended at a point; the pieces after it get no length."""
-    points, centers, turns = path.points.copy(), path.centers.copy(), path.turns.copy()
+    points, turns = path.points.copy(), path.turns.copy()
     points[row + 1 :] = at
     turns[row + 1 :] = 0
-    lines = turns == 0
-    centers[lines] = points[:-1][lines]
-    return Path(points, centers, turns, path.numbers)
+    return Path.of(points, path.centers, turns, path.numbers)
 
 
 def _run_in(surface: Surface, first: float, at: Point) -> Path:
@@ -246,11 +242,9 @@ def _run_out(surface: Surface, last: float, at: Point) -> Path:
 
 
 def _begun_at(path: Path, at: Point) -> Path:
-    points, centers = path.points.copy(), path.centers.copy()
+    points = path.points.copy()
     points[0] = at
-    if not path.turns[0]:
-        centers[0] = at
-    return Path.of(points, centers, path.turns)
+    return Path.of(points, path.centers, path.turns)
 
 
 def _is_clear(run: Path, left: PieceArrays, side: Side) -> bool:

@@ -11,7 +11,7 @@ import numpy as np
 from core.geometry.distance import band_fractions, feet, foot
 from core.geometry.path import Flags, Floats, Path, Points, Rows
 from core.geometry.piece import Side, point_of
-from core.geometry.piece_arrays import PieceArrays, at, blocks
+from core.geometry.piece_arrays import PieceArrays, at, blocks, fraction
 from core.tolerance import CLOSED, ON_PATH, STOCK
 from core.verify.farthest import farthest
 from core.verify.pairs import Pairs, concentric, covering, nearest, pairs_of, rounding_of
@@ -132,8 +132,7 @@ def gaps_of(pairs: Pairs, whole: Flags, radius: float) -> Gaps:
     gaps = Stretches(first[wide], last[wide])
     inward = np.array((gaps.first + ON_PATH, gaps.last - ON_PATH))
     index = stations[1:-1].searchsorted(inward, side="right")
-    length = np.where(pieces.length[index] == 0.0, 1.0, pieces.length[index])
-    t = np.clip((np.array((gaps.first, gaps.last)) - stations[index]) / length, 0.0, 1.0)
+    t = fraction(np.array((gaps.first, gaps.last)) - stations[index], pieces.length[index])
     ends = at(pieces.take(index.ravel()), t.ravel()).reshape(2, -1)
     if not len(pairs.others):
         unknown = np.full(len(gaps), nan)
@@ -261,8 +260,7 @@ def _areas(pairs: Pairs, gaps: Stretches, corner: Points, radius: float) -> Floa
 
 def _sectors(pieces: PieceArrays, parts: Stretches, starts: Floats, corner: Points, radius: float) -> Floats:
     """Return the (m,) areas between each part of a piece and the circle about its corner, positive counterclockwise."""
-    length = np.where(pieces.length == 0.0, 1.0, pieces.length)
-    t = np.clip((np.array((parts.first, parts.middle, parts.last)) - starts) / length, 0.0, 1.0)
+    t = fraction(np.array((parts.first, parts.middle, parts.last)) - starts, pieces.length)
     first, middle, last = at(pieces, t) - corner
     angle = np.angle(np.conj(first) * middle) + np.angle(np.conj(middle) * last)
     swept = (t[2] - t[0]) * pieces.angle

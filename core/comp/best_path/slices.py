@@ -11,6 +11,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from dataclasses import dataclass, fields, replace
+from itertools import chain
 from typing import Final, NamedTuple
 
 import numpy as np
@@ -74,12 +75,9 @@ def _pairs(raw: RawOffset) -> Iterator[tuple[Rows, Rows]]:
     """
     box, side, outline = boxes(raw.pieces), raw.side.nonzero()[0], (~raw.side).nonzero()[0]
     apart = _meet_next_only_at_joint(raw)
-    for i, j in near_pairs_within(box[:, side], 4.0 * ON_PATH):
-        i, j = side[i], side[j]
-        keep = ~((apart[i] & (raw.following[i] == j)) | (apart[j] & (raw.following[j] == i)))
-        yield i[keep], j[keep]
-    for i, j in near_pairs(box[:, side], box[:, outline], 4.0 * ON_PATH):
-        i, j = side[i], outline[j]
+    among = ((side[i], side[j]) for i, j in near_pairs_within(box[:, side], 4.0 * ON_PATH))
+    across = ((side[i], outline[j]) for i, j in near_pairs(box[:, side], box[:, outline], 4.0 * ON_PATH))
+    for i, j in chain(among, across):
         keep = ~((apart[i] & (raw.following[i] == j)) | (apart[j] & (raw.following[j] == i)))
         yield i[keep], j[keep]
 

@@ -240,5 +240,4 @@ def path_of_slices(raw: RawOffset, made: StitchedSlices, rows: Rows, origin: Flo
     tiny = ((turns != 0) & (size <= CROWDED)).nonzero()[0]
     swept = lengths(Pieces(points[:-1], points[1:], centers, turns).take(tiny))
     turns[tiny[np.abs(swept - size[tiny]) > CROWDED / 2.0]] = 0
-    centers = np.where(turns == 0, points[:-1], centers)
     return Path.of(coordinates(points) + origin, coordinates(centers) + origin, turns, numbers)

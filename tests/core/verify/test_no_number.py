@@ -119,7 +119,7 @@ def test_invalid_numbers_are_never_judged(bad: float, where: str) -> None:
         for axis in range(2):
             arrays = {"points": DEEP.points.copy(), "centers": DEEP.centers.copy()}
             arrays[where][row, axis] = bad
-            path = Path.of(arrays["points"], arrays["centers"], DEEP.turns)
+            path = Path(arrays["points"], arrays["centers"], DEEP.turns, DEEP.numbers)
             assert not measurable(1.0, WALL, path)
             assert not judge(WALL, Side.LEFT, 1.0, path).judged
             assert not judge_together(path, Side.LEFT, 1.0, [WALL, DEEP]).judged

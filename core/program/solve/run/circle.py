@@ -80,7 +80,8 @@ def circles(branch: Branch, index: int) -> Circles | None:
     along = _cross(basis[0], basis[1])
     if abs(along[2]) < VANISHING_COEFFICIENT:
         along = _agreed_sense(branch, index, along, cones)
-    at = _point_on(basis, along)
+    # the point nearest to the origin
+    at = _solved([basis[0], basis[1], (*along, 0.0)])
     for quadric in quadrics:
         roots = _roots(quadric, at, along)
         if roots is not None:
@@ -248,11 +249,6 @@ def _solved(basis: list[Row]) -> Point3:
         _determinant([(a, d, c) for a, _, c, d in basis]) / whole,
         _determinant([(a, b, d) for a, b, _, d in basis]) / whole,
     )
-
-
-def _point_on(basis: list[Row], along: Point3) -> Point3:
-    """Return the point nearest to the origin on the line of two linear conditions."""
-    return _solved([basis[0], basis[1], (*along, 0.0)])
 
 
 def _roots(quadric: Quadric, at: Point3, along: Point3) -> tuple[tuple[float, ...], bool] | None:

@@ -14,7 +14,7 @@ from core.finding import Finding
 from core.program.solve.measured import ANGLE_FIELDS, measured
 from core.program.solve.run import reasons
 from core.program.solve.run.search import GRAZE_SHIFT, search
-from core.program.solve.run.typed_run import Element, Run
+from core.program.solve.run.typed_run import Run
 
 TRIED_FACTORS: Final = tuple(1.08**step for step in range(1, 60))
 """The factors by which a radius is enlarged and reduced."""
@@ -40,7 +40,8 @@ def with_fitting_number(run: Run, finding: Finding) -> Finding:
     if finding.code not in ABOUT_RADIUS:
         return finding
     for index, element in enumerate(run.elements):
-        if element.turn and "radius" in element.known and not _centered(element):
+        centered = {"x_center", "y_center"} <= element.known.keys()
+        if element.turn and "radius" in element.known and not centered:
             limit = _limit(run, index)
             if limit is not None:
                 return reasons.radius_limit(run, index, limit, least=limit > element.known["radius"])
@@ -64,10 +65,6 @@ def _by_the_rest(run: Run, finding: Finding) -> Finding:
         nearest = min(values, key=lambda value: abs(remainder(value - typed, tau)))
         return reasons.angle_differs(run, index, name, typed, nearest)
     return reasons.length_differs(run, index, name, typed, min(values, key=lambda value: abs(value - typed)))
-
-
-def _centered(element: Element) -> bool:
-    return "x_center" in element.known and "y_center" in element.known
 
 
 def _limit(run: Run, index: int) -> float | None:

@@ -85,11 +85,9 @@ def radii_differ(run: Run, index: int, radius: float, out: float) -> Finding:
     return _fault("CONTRADICTION", text, run.elements[index], "radius", radius, out)
 
 
-def _rest(run: Run, index: int) -> str:
-    others = [element for element in run.elements if element is not run.elements[index]]
-    if not others:
-        return "its other fields"
-    return f"{segments(run.elements).replace('S', 's', 1)}"
+def _rest(run: Run) -> str:
+    """Name what a value of one element contradicts."""
+    return segments(run.elements).replace("S", "s", 1) if len(run.elements) > 1 else "its other fields"
 
 
 def angle_differs(run: Run, index: int, name: str, typed: float, actual: float) -> Finding:
@@ -100,14 +98,14 @@ def angle_differs(run: Run, index: int, name: str, typed: float, actual: float) 
     given, other = angle_text(typed), angle_text(actual)
     if given == other:
         given, other = f"{degrees(typed):.6f}", f"{degrees(actual):.6f}"
-    text = f"{label(element, name)} is {given}, but {other} by {_rest(run, index)}: correct or blank one of them."
+    text = f"{label(element, name)} is {given}, but {other} by {_rest(run)}: correct or blank one of them."
     return _fault("CONTRADICTION", text, element, name.removesuffix("_inc"))
 
 
 def length_differs(run: Run, index: int, name: str, typed: float, actual: float) -> Finding:
     """A typed length or coordinate differs from the one that the other data give."""
     element = run.elements[index]
-    text = f"{label(element, name)} is {{0~1}}, but {{1~0}} by {_rest(run, index)}: correct or blank one of them."
+    text = f"{label(element, name)} is {{0~1}}, but {{1~0}} by {_rest(run)}: correct or blank one of them."
     return _fault("CONTRADICTION", text, element, name.removesuffix("_inc"), typed, actual)
 
 
@@ -126,7 +124,7 @@ def not_linked(run: Run, index: int, link: float, actual: float) -> Finding:
         text = f"Segment {element.number} is not tangent to the one before: the corner turns by {turned:.3f} degrees. "
         return _fault("CONTRADICTION", f"{text}Blank TANGENT, or correct one of them.", element, "tangent")
     name = "start_angle" if element.turn else "angle"
-    text = f"{label(element, name)} is I{degrees(link):g}, but I{turned:.3f} by {_rest(run, index)}: correct or blank "
+    text = f"{label(element, name)} is I{degrees(link):g}, but I{turned:.3f} by {_rest(run)}: correct or blank "
     return _fault("CONTRADICTION", f"{text}one of them.", element, name)
 
 
@@ -159,7 +157,10 @@ def no_meeting(branch: Branch, joint: int, first: Locus, second: Locus) -> Findi
     elements = branch.run.elements
     before = elements[joint - 1]
     after = elements[joint] if joint < len(elements) else before
-    carriers = [_carrier(branch, joint, locus) for locus in (first, second)]
+    carriers = [
+        _arc_about(branch, (joint - 1, joint), locus.center) if isinstance(locus, Circle) else None
+        for locus in (first, second)
+    ]
     if isinstance(first, OrientedLine) and isinstance(second, OrientedLine):
         return _parallel_lines(before, after, first, second)
     if isinstance(first, Circle) and isinstance(second, Circle):
@@ -170,12 +171,12 @@ def no_meeting(branch: Branch, joint: int, first: Locus, second: Locus) -> Findi
     return _line_misses(before, after, line, circle, carriers[0] if circle is first else carriers[1])
 
 
-def _carrier(branch: Branch, joint: int, locus: Locus) -> Element | None:
-    """Return the arc whose circle the locus is, None if it is no arc's circle."""
-    for index in (joint - 1, joint):
-        if isinstance(locus, Circle) and 0 <= index < len(branch.run.elements):
+def _arc_about(branch: Branch, indices: tuple[int, int], at: Point) -> Element | None:
+    """Return the first of two elements, as far as they exist, that is an arc with its known center at a point."""
+    for index in indices:
+        if 0 <= index < len(branch.run.elements):
             center = branch.center(index)
-            if center is not None and dist(center, locus.center) <= ARC_RADII:
+            if center is not None and dist(center, at) <= ARC_RADII:
                 return branch.run.elements[index]
     return None
 
@@ -199,9 +200,8 @@ def _line_misses(before: Element, after: Element, line: OrientedLine, circle: Ci
         text = f"{subject} passes the circle of segment {arc.number} at {{0~1}}; its RADIUS is {{1~0}}."
         return _fault("NO_MEETING", text, arc, "radius", height, circle.radius)
     element = next((element for element in (after, before) if "length" in element.known), after)
-    name = label(element, "length" if not element.turn else "radius")
-    text = f"{name} {{0~1}} does not reach: it takes at least {{1~0}}."
-    field = "length" if not element.turn else "radius"
+    field = "radius" if element.turn else "length"
+    text = f"{label(element, field)} {{0~1}} does not reach: it takes at least {{1~0}}."
     return _fault("TOO_SHORT", text, element, field, circle.radius, height)
 
 
@@ -232,7 +232,7 @@ def no_tangent(
     (a, r, _), (b, s, _) = first, second
     if (r == 0.0) is not (s == 0.0):
         point, center = (a, b) if r == 0.0 else (b, a)
-        arc = _touched(branch, index, center)
+        arc = _arc_about(branch, (index - 1, index + 1), center)
         if arc is not None:
             text = f"The point {{0}} {{1}} lies inside the circle of segment {arc.number}: no line from it is tangent."
             return _fault("INSIDE", text, element, None, *point)
@@ -242,15 +242,6 @@ def no_tangent(
     after = elements[index + 1].number if index + 1 < len(elements) else element.number
     text = f"Segments {before} and {after} overlap: no line runs from one to the other with these DIRECTIONS."
     return _fault("NO_TANGENT", text, element, None)
-
-
-def _touched(branch: Branch, index: int, center: Point) -> Element | None:
-    for neighbor in (index - 1, index + 1):
-        if 0 <= neighbor < len(branch.run.elements) and branch.run.elements[neighbor].turn:
-            known = branch.center(neighbor)
-            if known is not None and dist(known, center) <= ARC_RADII:
-                return branch.run.elements[neighbor]
-    return None
 
 
 def no_circle(branch: Branch, index: int) -> Finding:

@@ -52,16 +52,10 @@ def _headed(branch: Branch, root: int, index: int, heading: float) -> Branch:
     return way
 
 
-def _joints(branch: Branch) -> Iterator[int]:
-    """Return the indices of the unknown joints."""
-    return (index for index in range(1, len(branch.x)) if branch.joint(index) is None)
-
-
 def _joint(branch: Branch) -> Ways | None:
     """Choose a joint among the points where two loci meet."""
-    for index in _joints(branch):
-        loci = branch.loci(index)
-        if len(loci) < 2:
+    for index in range(1, len(branch.x)):
+        if branch.joint(index) is not None or len(loci := branch.loci(index)) < 2:
             continue
         met = meeting(loci[0], loci[1])
         if not met.points:
