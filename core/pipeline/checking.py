@@ -429,8 +429,7 @@ def same_contours(first: bytes, second: bytes, asked: Asked) -> tuple[bool, tupl
     sentences = [_pair(pair, first_run.unit, second_run.unit) for pair in pairs]
     counts_differ = len(first_run.stretches) != len(second_run.stretches)
     if counts_differ:
-        count = len(first_run.stretches)
-        which = "1 contour" if count == 1 else f"{count} contours"
+        which = counted(len(first_run.stretches), "contour")
         sentences.append(f"The first program has {which}, the second {len(second_run.stretches)}.")
     for name, done in (("first", first_run), ("second", second_run)):
         if done.stopped_at is not None:

@@ -81,6 +81,15 @@ _COMMON_CODES: Final[tuple[CodeGroup, ...]] = (
 )
 """The G codes of every word-address control in cutcomp."""
 
+USUAL_CODES: Final[tuple[CodeGroup, ...]] = (
+    ("path", CodeAction.MODE, (610, 640)),
+    ("spindle", CodeAction.SPINDLE, (960, 970)),
+    ("retract", CodeAction.RETRACT, (980, 990)),
+    ("once", CodeAction.SHIFT, (520,)),
+    ("once", CodeAction.MACHINE, (530,)),
+    ("once", CodeAction.DATA, (100,)),
+)
+"""The further G codes of every such control but the oldest."""
 
 CYCLES_APART: Final = (("cycle", CodeAction.CYCLE, tuple(range(810, 900, 10))), ("cycle", CodeAction.MOTION, (800,)))
 """G80 to G89 as a group of their own: G80 then ends the cycle and restores the motion in force before it.

@@ -334,7 +334,7 @@ class Machine(ModalState):
             self._straight(block, self.target(block.words), rapid=mode == 0)
         elif mode in _ARC_TURNS:
             self._arc(block, _ARC_TURNS[mode])
-        elif mode is None or mode == 800:
+        elif mode is None or mode == _G80:
             text = "Axis words without a motion in force; write G0, G1, G2 or G3."
             self.log.stop("MOTION", text, block.line, block.column("XYZ"))
         else:
@@ -414,12 +414,10 @@ class Machine(ModalState):
         first, second, _ = IN_PLANE[self.plane]
         zero = flat(self.shift, self.plane)[:2] if absolute else start
         meant = "the arc's start" if absolute else "the program's zero"
-        i, j = (self._number(coordinate - reference) for coordinate, reference in zip(center, zero, strict=True))
+        numbers = ((coordinate - reference) / self.scale for coordinate, reference in zip(center, zero, strict=True))
+        # every control reads a decimal point
+        i, j = (f"{round(number, 5) + 0.0:.5f}".rstrip("0") for number in numbers)
         return f" If {first} and {second} are meant from {meant}, write {first}{i} {second}{j}"
-
-    def _number(self, millimeters: float) -> str:
-        """Return a length as a word's number, with the decimal point that every control reads."""
-        return f"{round(millimeters / self.scale, 5) + 0.0:.5f}".rstrip("0")
 
     def _drill(self, block: Block) -> None:
         if self.control.active:

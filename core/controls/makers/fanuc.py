@@ -14,7 +14,7 @@ from core.controls.compensation.corner_rules import Outside
 from core.controls.compensation.elements import Element, line_element
 from core.controls.control_run import Log
 from core.controls.iso.arcs import IN_PLANE
-from core.controls.iso.dialect import CYCLES_APART, PLANE_OF_CODE, CodeAction, Dialect, codes
+from core.controls.iso.dialect import CYCLES_APART, PLANE_OF_CODE, USUAL_CODES, CodeAction, Dialect, codes
 from core.controls.iso.expressions import ParameterStore
 from core.controls.iso.flow import MakeControl
 from core.controls.iso.machine import NON_MODAL_ACTIONS, Control
@@ -27,14 +27,13 @@ from core.geometry.piece import Point, Side
 from core.units import Unit
 
 CODE_GROUPS: Final = (
+    *USUAL_CODES,
     *CYCLES_APART,
     ("cycle", CodeAction.CYCLE, (730, 740, 760)),
     ("length", CodeAction.MODE, (440,)),
     ("length", CodeAction.UNSUPPORTED, (431, 434, 435)),
     ("system", CodeAction.SYSTEM, (541,)),
-    ("path", CodeAction.MODE, (610, 620, 630, 640)),
-    ("spindle", CodeAction.SPINDLE, (960, 970)),
-    ("retract", CodeAction.RETRACT, (980, 990)),
+    ("path", CodeAction.MODE, (620, 630)),
     ("stroke", CodeAction.MODE, (220, 230)),
     ("scaling", CodeAction.TRANSFORM, (500, 510)),
     ("mirror", CodeAction.TRANSFORM, (501, 511)),
@@ -48,9 +47,6 @@ CODE_GROUPS: Final = (
     ("once", CodeAction.MODE, (50, 51, 80, 90, 110, 270, 600, 650)),
     ("corner", CodeAction.OF_THIS_CONTROL, (390,)),
     ("once", CodeAction.SKIP, (310,)),
-    ("once", CodeAction.SHIFT, (520,)),
-    ("once", CodeAction.MACHINE, (530,)),
-    ("once", CodeAction.DATA, (100,)),
     ("once", CodeAction.UNSUPPORTED, (70, 71, 290, 370, 450, 460, 470, 480, 121, 131)),
 )
 """Codes in addition to those that all word-address controls share."""

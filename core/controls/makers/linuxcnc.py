@@ -16,7 +16,7 @@ from core.controls.control_run import Log
 from core.controls.control_tools import ToolTable, missing_tool
 from core.controls.iso.arcs import ArcTolerance
 from core.controls.iso.code_support import OFFSETS_ANYWHERE, only_on
-from core.controls.iso.dialect import PLANE_OF_CODE, CodeAction, Dialect, codes
+from core.controls.iso.dialect import PLANE_OF_CODE, USUAL_CODES, CodeAction, Dialect, codes
 from core.controls.iso.expressions import ParameterStore
 from core.controls.iso.machine import Control
 from core.controls.iso.modal_state import system_code
@@ -28,6 +28,7 @@ from core.units import Unit
 
 DIALECT: Final = Dialect(
     codes(
+        *USUAL_CODES,
         ("motion", CodeAction.CYCLE, (382, 383, 384, 385, 730, 740)),
         ("motion", CodeAction.UNSUPPORTED, (50, 51, 52, 60, 61, 62, 330, 331, 700, 710, 711, 712, 720, 721, 722, 760)),
         ("once", CodeAction.UNSUPPORTED, (53, 281, 301)),
@@ -35,13 +36,8 @@ DIALECT: Final = Dialect(
         ("centers", CodeAction.CENTERS, (901, 911)),
         ("system", CodeAction.SYSTEM, (591, 592, 593)),
         ("length", CodeAction.LENGTH, (430, 431, 432, 490)),
-        ("path", CodeAction.MODE, (610, 611, 640)),
-        ("spindle", CodeAction.SPINDLE, (960, 970)),
-        ("retract", CodeAction.RETRACT, (980, 990)),
+        ("path", CodeAction.MODE, (611,)),
         ("lathe", CodeAction.MODE, (70, 80)),
-        ("once", CodeAction.SHIFT, (520,)),
-        ("once", CodeAction.MACHINE, (530,)),
-        ("once", CodeAction.DATA, (100,)),
         ("once", CodeAction.UNSHIFT, (921, 922, 923)),
     ),
     Unit.MM,

@@ -28,7 +28,7 @@ from core.controls.compensation.element_queue import ElementQueue
 from core.controls.compensation.elements import Element, fits, offset_end, offset_radius, offset_start
 from core.controls.control_run import Log
 from core.controls.iso.arcs import IN_PLANE
-from core.controls.iso.dialect import CYCLES_APART, PLANE_OF_CODE, CodeAction, Dialect, codes
+from core.controls.iso.dialect import CYCLES_APART, PLANE_OF_CODE, USUAL_CODES, CodeAction, Dialect, codes
 from core.controls.iso.flow import MakeControl
 from core.controls.iso.machine import Control
 from core.controls.iso.reader import COMPENSATION_CODES, Block, Syntax, whole_word
@@ -38,15 +38,10 @@ from core.units import Unit
 
 DIALECT: Final = Dialect(
     codes(
+        *USUAL_CODES,
         *CYCLES_APART,
         ("units", CodeAction.UNITS, (700, 710)),
         ("corners", CodeAction.OF_THIS_CONTROL, (390, 391)),
-        ("path", CodeAction.MODE, (610, 640)),
-        ("spindle", CodeAction.SPINDLE, (960, 970)),
-        ("retract", CodeAction.RETRACT, (980, 990)),
-        ("once", CodeAction.SHIFT, (520,)),
-        ("once", CodeAction.MACHINE, (530,)),
-        ("once", CodeAction.DATA, (100,)),
         ("once", CodeAction.UNSHIFT, (921,)),
         ("once", CodeAction.UNSUPPORTED, (141, 160, 511, 680)),
         ("scaling", CodeAction.MODE, (140,)),

@@ -18,7 +18,7 @@ from core.controls.compensation.elements import Element, fits, offset_end, offse
 from core.controls.control_run import Log
 from core.controls.control_tools import missing_tool
 from core.controls.iso.code_support import OFFSETS_ANYWHERE, only_on
-from core.controls.iso.dialect import PLANE_OF_CODE, CodeAction, Dialect, codes
+from core.controls.iso.dialect import PLANE_OF_CODE, USUAL_CODES, CodeAction, Dialect, codes
 from core.controls.iso.expressions import ParameterStore
 from core.controls.iso.machine import Control
 from core.controls.iso.reader import COMPENSATION_CODES, Block, whole_word
@@ -29,16 +29,11 @@ from core.units import Unit
 
 DIALECT: Final = Dialect(
     codes(
+        *USUAL_CODES,
         ("compensation", CodeAction.SIDE, (411, 421)),
         ("system", CodeAction.SYSTEM, (591, 592, 593)),
-        ("path", CodeAction.MODE, (610, 640)),
-        ("spindle", CodeAction.SPINDLE, (960, 970)),
-        ("retract", CodeAction.RETRACT, (980, 990)),
         ("scaling", CodeAction.MODE, (500,)),
         ("rotation", CodeAction.MODE, (690,)),
-        ("once", CodeAction.SHIFT, (520,)),
-        ("once", CodeAction.MACHINE, (530,)),
-        ("once", CodeAction.DATA, (100,)),
         ("scaling", CodeAction.UNSUPPORTED, (510,)),
         ("rotation", CodeAction.UNSUPPORTED, (680,)),
         ("once", CodeAction.UNSUPPORTED, (650, 660)),

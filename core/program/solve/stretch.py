@@ -143,14 +143,17 @@ def tangent_fault(contour: Contour, index: int) -> Finding | None:
     return Finding("TANGENT_PLACE", Severity.ERROR, text, field="tangent")
 
 
-def _indices(contour: Contour, first: int) -> Iterator[int]:
-    """Yield the indices of the LINEs and ARCs from `first` on, up to the most that are solved together."""
+def _longer_and_longer(contour: Contour, first: int) -> Iterator[tuple[int, ...]]:
+    """Yield the indices of stretches of one, two ... LINEs and ARCs from `first` on, up to the first that ends.
+
+    The longest has as many elements as are solved together.
+    """
+    indices: tuple[int, ...] = ()
     at: int | None = first
-    for _ in range(MAX_RUN_LENGTH):
-        if at is None:
-            return
-        yield at
-        at = _next(contour, at)
+    while at is not None and len(indices) < MAX_RUN_LENGTH:
+        indices = (*indices, at)
+        yield indices
+        at = None if _ends(contour, indices) else _next(contour, at)
 
 
 def _ends(contour: Contour, indices: Sequence[int]) -> bool:
@@ -170,14 +173,10 @@ def _solved(contour: Contour, first: int, before: Carried, least: int) -> _Attem
 
     It has at least `least` elements: a segment that is tied to no other has its own rules.
     """
-    indices: list[int] = []
-    for index in _indices(contour, first):
-        indices.append(index)
+    for indices in _longer_and_longer(contour, first):
         attempt = _attempt(contour, indices, before) if len(indices) >= least else None
         if attempt is not None and attempt.search.stuck is None:
             return _narrowed(contour, attempt, before)
-        if _ends(contour, indices):
-            return None
     return None
 
 
@@ -213,13 +212,9 @@ def _rounded(pieces: Sequence[Piece]) -> tuple[float, ...]:
 
 def _unsolved(contour: Contour, first: int, before: Carried) -> _Attempt:
     """Return the stretch whose missing data are reported: up to the first typed end, else up to the longest."""
-    indices: list[int] = []
-    for index in _indices(contour, first):
-        indices.append(index)
-        if _ends(contour, indices):
-            break
+    *_, indices = _longer_and_longer(contour, first)
     run = _run(contour, indices, before)
-    return _Attempt(tuple(indices), run, search(run))
+    return _Attempt(indices, run, search(run))
 
 
 # what is typed
