@@ -437,14 +437,10 @@ class FileActions(DerivationActions):
 
     @work(group="question")
     async def _save(self, proof: ProofScreen | None, path: Path | None) -> None:
-        if await self.saved(proof, path) and path is not None:
-            self._leave_save_as()
-
-    def _leave_save_as(self) -> None:
-        """Close SAVE AS, unless the operator left it while waiting for the disk."""
         from app.screens.entry_screen import SaveAsScreen
 
-        if isinstance(self.screen, SaveAsScreen):
+        # the operator may have left SAVE AS while it waited for the disk
+        if await self.saved(proof, path) and path is not None and isinstance(self.screen, SaveAsScreen):
             self.pop_screen()
 
     async def saved(self, proof: ProofScreen | None, path: Path | None) -> bool:

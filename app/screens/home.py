@@ -71,15 +71,12 @@ class HomeScreen(BaseScreen):
         with Vertical(id="files", classes="panel -bare") as files:
             files.border_title = "PROGRAMS"
             yield PlainText(id="folder", classes="head")
-            yield RowTable(id="programs", cursor_type="row")
+            yield RowTable(COLUMNS, id="programs")
             yield About(id="file-about", classes="about")
         yield Drawing(id="preview")
 
     def on_mount(self) -> None:
-        """Add the columns and list the files."""
-        table = self.query_one("#programs", DataTable)
-        for label, width in COLUMNS:
-            table.add_column(label, width=width, key=label)
+        """List the files."""
         self.show_folder(self.folder, at=self._at)
 
     def on_screen_resume(self) -> None:

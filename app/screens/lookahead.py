@@ -50,14 +50,8 @@ class LookaheadScreen(BaseScreen):
         """Lay out the title, the table, and the drawing of the value with the cursor."""
         with Vertical(id="lookahead", classes="panel -bare"):
             yield PlainText(id="lookahead-title", classes="head")
-            yield RowTable(id="values", cursor_type="row")
+            yield RowTable(COLUMNS, id="values")
         yield Drawing(id="value-path")
-
-    def on_mount(self) -> None:
-        """Add the columns."""
-        values = self.query_one("#values", DataTable)
-        for label, width in COLUMNS:
-            values.add_column(label, width=width)
 
     def show_session(self, session: Session) -> None:
         """Show one row per value; the cursor starts on the recommended value, else on the one in force."""

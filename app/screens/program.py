@@ -17,7 +17,6 @@ from app.screens.base import BaseScreen
 from app.session.block_findings import block_findings
 from app.session.derivation import times_in_words
 from app.session.guide import on_program
-from app.session.messages import Sentence
 from app.session.session import Session
 from app.session.words import counted
 from app.widgets.about import About
@@ -61,6 +60,12 @@ class ProgramScreen(BaseScreen):
         ("^S", "SAVE"),
         ("?", "KEYS, HELP"),
     )
+    PROMPT: ClassVar[str] = "Enter edits the block. C copies it, Ctrl+Up and Ctrl+Down move it."
+    PALETTE_ACTIONS: ClassVar[tuple[tuple[str, str, str], ...]] = (
+        ("COPY BLOCK", "screen.copy_block", "C"),
+        ("MOVE BLOCK UP", "screen.move_block(-1)", "Ctrl+Up"),
+        ("MOVE BLOCK DOWN", "screen.move_block(1)", "Ctrl+Down"),
+    )
 
     def __init__(self) -> None:
         super().__init__()
@@ -73,16 +78,10 @@ class ProgramScreen(BaseScreen):
                 yield PlainLabel("PROGRAM", classes="head-label")
                 yield PlainLabel(id="block-count", classes="head-kind")
                 yield PlainLabel(id="program-file", classes="head-note")
-            yield RowTable(id="blocks", cursor_type="row")
+            yield RowTable(COLUMNS, id="blocks")
             yield About(id="program-about", classes="about")
             yield FindingsList(id="program-findings")
         yield Drawing(id="block-drawing")
-
-    def on_mount(self) -> None:
-        """Add the columns."""
-        table = self.query_one("#blocks", DataTable)
-        for label, width in COLUMNS:
-            table.add_column(label, width=width)
 
     def show_session(self, session: Session) -> None:
         """Show one row per block."""
@@ -115,18 +114,6 @@ class ProgramScreen(BaseScreen):
     def at_rest(self) -> bool:
         """Always true, as nothing is typed on this screen."""
         return True
-
-    def prompt_text(self) -> Sentence:
-        """Return what the keys do."""
-        return Sentence("Enter edits the block. C copies it, Ctrl+Up and Ctrl+Down move it.")
-
-    def palette_actions(self) -> tuple[tuple[str, str, str], ...]:
-        """Return COPY BLOCK and MOVE BLOCK."""
-        return (
-            ("COPY BLOCK", "screen.copy_block", "C"),
-            ("MOVE BLOCK UP", "screen.move_block(-1)", "Ctrl+Up"),
-            ("MOVE BLOCK DOWN", "screen.move_block(1)", "Ctrl+Down"),
-        )
 
     @property
     def chosen(self) -> int:

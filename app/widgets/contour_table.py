@@ -34,13 +34,8 @@ class ContourTable(RowTable[Content]):
     ]
 
     def __init__(self, *, id: str) -> None:
-        super().__init__(id=id, cursor_type="row", cell_padding=0)
+        super().__init__([(_heading(label, width), width) for label, width in COLUMNS], id=id, cell_padding=0)
         self.rows_shown: tuple[Row, ...] = ()
-
-    def on_mount(self) -> None:
-        """Add the columns."""
-        for label, width in COLUMNS:
-            self.add_column(_heading(label, width), width=width, key=label)
 
     def fill(self, rows: Sequence[Row], unit: Unit, marked: Collection[int], at: int = 0) -> None:
         """Replace the rows; put the cursor on the row with contour number `at`, else on the first."""

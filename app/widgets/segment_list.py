@@ -53,7 +53,7 @@ class SegmentList(RowTable[Text]):
     characters: reactive[str] = reactive("braille", repaint=False)
 
     def __init__(self, *, id: str | None = None, classes: str | None = None) -> None:
-        super().__init__(id=id, classes=classes, cursor_type="row", cell_padding=0)
+        super().__init__(id=id, classes=classes, cell_padding=0)
         self.border_title = "SEGMENTS"
         self._rows: list[SegmentRow] = []
 
