@@ -3,7 +3,7 @@
 To add a screen:
 
 1. Write `app/screens/NAME.py` with a class `NameScreen(BaseScreen)`: `compose_body` yields its widgets, `SOFTKEYS` are
-   its eight softkeys, `show_session` shows a new session, `prompt_text` tells what the focused widget takes.
+   its eight softkeys, `show_session` shows a new session, `PROMPT` or `prompt_text` tells what the keys do.
    A screen with fields is a `FormScreen` instead (`app/screens/form_screen.py`).
 2. Give the App a method `action_NAME` that calls `self.bring(NameScreen)` (`app/app.py`).  A softkey or a binding of
    any screen then names `app.NAME`, and `app.back` closes it.  Screens never import each other.
@@ -79,6 +79,14 @@ class BaseScreen(Screen[None]):
         ("?", "KEYS, HELP"),
     )
     """Further keys, listed under the softkeys; the keys of lists and findings act only where F10 is one of them."""
+    PROMPT: ClassVar[str] = ""
+    """What the keys do, where that is always the same."""
+    GUIDE: ClassVar[str] = NOT_NEEDED
+    """The step of the guided first part on this screen, where that is always the same."""
+    PALETTE_ACTIONS: ClassVar[tuple[tuple[str, str, str], ...]] = ()
+    """Name, action and hint of each palette action that this screen adds to its softkeys."""
+    SHOWS_STATE_OF_BELOW: ClassVar[bool] = False
+    """Whether the status line is about the document of the screen below."""
     HAS_PROGRESS: ClassVar[bool] = False
     """Whether a bar in the place of the prompt shows long work, not the status line."""
     SHOWS_NC_TEXT: ClassVar[bool] = False
@@ -132,10 +140,6 @@ class BaseScreen(Screen[None]):
         """Undo or redo on this screen's own document, if it has one; return whether the action was handled."""
         return False
 
-    def palette_actions(self) -> tuple[tuple[str, str, str], ...]:
-        """Return name, action and hint of each palette action that this screen adds to its softkeys."""
-        return ()
-
     def action_question_mark(self) -> None:
         """Open HELP; in a text field, type the question mark."""
         field, widget = self.current_field, self.focused
@@ -163,7 +167,7 @@ class BaseScreen(Screen[None]):
 
     def prompt_text(self) -> Sentence:
         """Return what the focused widget takes."""
-        return Sentence("")
+        return Sentence(self.PROMPT)
 
     def on_mount(self) -> None:
         """Show the App's session; from then on the App tells its screens about changes.
@@ -227,13 +231,11 @@ class BaseScreen(Screen[None]):
 
     def show_state_on(self, status: Status) -> None:
         """Show them on the status line of this screen, or of one on top of it."""
-        status.show_program(self.current_session)
-
-    def show_state_of_below_on(self, status: Status) -> None:
-        """Show the state of the screen below this one on the status line."""
         stack = self.app.screen_stack
         below = [screen for screen in stack[: stack.index(self)] if isinstance(screen, BaseScreen)]
-        if below:
+        if not self.SHOWS_STATE_OF_BELOW:
+            status.show_program(self.current_session)
+        elif below:
             below[-1].show_state_on(status)
 
     def follow_shown(self, shown: Session) -> None:
@@ -251,7 +253,7 @@ class BaseScreen(Screen[None]):
 
     def guide_text(self) -> str:
         """Return the next step of the guided first part on this screen."""
-        return NOT_NEEDED
+        return self.GUIDE
 
     @property
     def stands(self) -> bool:
@@ -353,6 +355,7 @@ class OpeningScreen(BaseScreen):
     """The name of an NC text or a drawing while its screen is loaded: no field takes keys that are not meant for it."""
 
     MORE_KEYS: ClassVar[tuple[tuple[str, str], ...]] = ()
+    PROMPT: ClassVar[str] = "The file is being opened."
 
     def __init__(self, name: str) -> None:
         super().__init__()
@@ -365,7 +368,3 @@ class OpeningScreen(BaseScreen):
 
     def show_state_on(self, status: Status) -> None:
         """Show no unit: the file's is not known yet."""
-
-    def prompt_text(self) -> Sentence:
-        """Return what is going on."""
-        return Sentence("The file is being opened.")

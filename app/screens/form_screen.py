@@ -47,6 +47,10 @@ class FormScreen(BaseScreen):
         Binding("equals_sign", "calculator", "Calculator", show=False, priority=True),
     ]
 
+    PALETTE_ACTIONS: ClassVar[tuple[tuple[str, str, str], ...]] = (
+        ("CALCULATOR", "screen.calculator", "=: triangles, tangents, bolt circles, intersections"),
+    )
+
     def __init__(self) -> None:
         super().__init__()
         self._armed: Widget | None = None
@@ -306,10 +310,6 @@ class FormScreen(BaseScreen):
             await super().action_softkey(number)
 
     # ---- the calculator
-
-    def palette_actions(self) -> tuple[tuple[str, str, str], ...]:
-        """Return CALCULATOR."""
-        return (("CALCULATOR", "screen.calculator", "=: triangles, tangents, bolt circles, intersections"),)
 
     def action_calculator(self) -> None:
         """Open the calculator for the field with the cursor; in a text field, type the equals sign."""

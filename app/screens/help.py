@@ -15,10 +15,8 @@ from textual.widgets import Static
 
 from app.screens.base import NO_LIST_KEYS, BaseScreen
 from app.screens.topics import topic_of
-from app.session.messages import Sentence
 from app.widgets.plain import PlainLabel, PlainText
 from app.widgets.softkeys import Softkey
-from app.widgets.status import Status
 from core.program.fields import Field, range_of
 from core.units import Kind, Unit
 
@@ -81,6 +79,8 @@ class HelpScreen(BaseScreen):
     ]
     SOFTKEYS: ClassVar[tuple[Softkey | None, ...]] = (*(None,) * 7, Softkey("BACK", "app.back", "BACK"))
     MORE_KEYS: ClassVar[tuple[tuple[str, str], ...]] = NO_LIST_KEYS
+    PROMPT: ClassVar[str] = "Up, down and Space read on. Enter or Esc goes back."
+    SHOWS_STATE_OF_BELOW: ClassVar[bool] = True
 
     def __init__(self, field: Field | None = None, lines: Sequence[str] = ()) -> None:
         super().__init__()
@@ -114,14 +114,6 @@ class HelpScreen(BaseScreen):
     def action_page_down(self) -> None:
         """Scroll to the next page."""
         self.query_one("#help-text", VerticalScroll).scroll_page_down(animate=False)
-
-    def show_state_on(self, status: Status) -> None:
-        """Show the state of the screen below."""
-        self.show_state_of_below_on(status)
-
-    def prompt_text(self) -> Sentence:
-        """Return how to scroll and how to go back."""
-        return Sentence("Up, down and Space read on. Enter or Esc goes back.")
 
 
 def _table(rows: Sequence[tuple[str, str]], width: int) -> list[Content]:

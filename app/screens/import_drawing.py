@@ -141,6 +141,11 @@ class ImportScreen(BaseScreen):
         Softkey("EXIT takes nothing", "app.back", "EXIT"),
     )
     MORE_KEYS: ClassVar[tuple[tuple[str, str], ...]] = (("Spc", "MARK"), ("/", "FILTER"), ("?", "KEYS, HELP"))
+    PALETTE_ACTIONS: ClassVar[tuple[tuple[str, str, str], ...]] = (
+        ("MARK", "screen.mark", "Space"),
+        ("FILTER", "screen.filter", "/"),
+        ("BRANCH", "screen.branch", "B: where an open chain goes on"),
+    )
 
     def __init__(self, path: Path, *, fresh: bool = False) -> None:
         super().__init__()
@@ -684,14 +689,6 @@ class ImportScreen(BaseScreen):
                 f"No chain has '{quoted(text)}' in its layer, kind, length or size. Esc shows all.", Tone.WARNING
             )
         return Sentence("Type a part of a layer, kind, length or size. Enter goes to the list, Esc shows all.")
-
-    def palette_actions(self) -> tuple[tuple[str, str, str], ...]:
-        """Return MARK, FILTER and BRANCH."""
-        return (
-            ("MARK", "screen.mark", "Space"),
-            ("FILTER", "screen.filter", "/"),
-            ("BRANCH", "screen.branch", "B: where an open chain goes on"),
-        )
 
     def help_lines(self) -> tuple[str, ...]:
         """Return the keys, then what the reader did to the drawing."""

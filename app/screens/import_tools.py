@@ -15,7 +15,7 @@ from app.documents.questions import Answer
 from app.documents.tool_tables import merged, read_table, tool_line
 from app.screens.dialogs import Question
 from app.screens.entry_screen import EntryScreen
-from app.session.messages import Sentence, Tone
+from app.session.messages import Tone
 from app.widgets.plain import PlainText
 from app.widgets.softkeys import Softkey
 from core.finding import Finding, Severity
@@ -31,6 +31,7 @@ class ImportToolsScreen(EntryScreen):
     """The table's file name and the unit of its lengths, which the table itself does not state."""
 
     TITLE: ClassVar[str] = "IMPORT TOOL TABLE"
+    PROMPT: ClassVar[str] = "Name of a LinuxCNC tool table, Enter reads it. F2 changes the units of its lengths."
     SOFTKEYS: ClassVar[tuple[Softkey | None, ...]] = (
         Softkey("IMPORT", "enter", "IMPORT"),
         Softkey("CHANGE TABLE UNITS", "other_unit", "UNITS"),
@@ -78,10 +79,6 @@ class ImportToolsScreen(EntryScreen):
             self.host.apply(merged(program, table.tools), "IMPORT TOOL TABLE")
             self.notify(f"Imported {len(table.tools)} tools. Ctrl+Z brings the old ones back.", timeout=4)
             self.app.call_later(self.app.run_action, "app.back")
-
-    def prompt_text(self) -> Sentence:
-        """Return what to type."""
-        return Sentence("Name of a LinuxCNC tool table, Enter reads it. F2 changes the units of its lengths.")
 
 
 def _fault(finding: Finding) -> Content:

@@ -66,7 +66,7 @@ class Actions(Provider):
             for number, key in enumerate(screen.SOFTKEYS, 1):
                 if key is not None and screen.key_acts(key):
                     yield key.label, f"screen.softkey({number})", f"F{number}"
-            yield from screen.palette_actions()
+            yield from screen.PALETTE_ACTIONS
         yield from ACTIONS
 
     def _unique(self) -> list[tuple[str, str, str]]:

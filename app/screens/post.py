@@ -42,6 +42,7 @@ class PostScreen(EntryScreen):
 
     TITLE: ClassVar[str] = "POST NC"
     LABEL: ClassVar[str] = "NC FILE"
+    GUIDE: ClassVar[str] = POST_NAME
     HAS_PROGRESS: ClassVar[bool] = True
     SOFTKEYS: ClassVar[tuple[Softkey | None, ...]] = (
         Softkey("POST", "enter", "POST"),
@@ -157,10 +158,6 @@ class PostScreen(EntryScreen):
         left = [Content.styled(f"{marks.warning} {line}", "$c-uncut") for line in objections(session.derived)]
         unsaved = [Content.styled("The program is not saved: Ctrl+S saves it.", "$c-label")] if session.unsaved else []
         return [*against, *ready, *left, *notes, *unsaved]
-
-    def guide_text(self) -> str:
-        """Return the guide's step here; the name is already filled in."""
-        return POST_NAME
 
     def prompt_text(self) -> Sentence:
         """Return what Enter does."""

@@ -14,7 +14,6 @@ from textual.content import Content
 from textual.widgets import Static
 
 from app.screens.entry_screen import EntryScreen
-from app.session.messages import Sentence
 from app.session.posting import setup_sheet
 from app.session.session import Session
 from app.widgets.plain import PlainText
@@ -26,6 +25,7 @@ class SheetScreen(EntryScreen):
     """The name of the sheet's file, and the sheet as text."""
 
     TITLE: ClassVar[str] = "SETUP SHEET"
+    PROMPT: ClassVar[str] = "Name of the sheet, Enter writes it: .html with drawing, .txt text. Page Down: read on."
     BINDINGS: ClassVar[list[BindingType]] = [
         Binding("pagedown", "scroll(1)", "Next page", show=False),
         Binding("pageup", "scroll(-1)", "Page before", show=False),
@@ -73,7 +73,3 @@ class SheetScreen(EntryScreen):
             return
         self.notify(f"Setup sheet: {written[0]}", timeout=4)
         self.app.call_later(self.app.run_action, "app.back")
-
-    def prompt_text(self) -> Sentence:
-        """Return what to type."""
-        return Sentence("Name of the sheet, Enter writes it: .html with drawing, .txt text. Page Down: read on.")
