@@ -19,7 +19,7 @@ from textual.notifications import SeverityLevel
 from textual.screen import ModalScreen, Screen
 
 from app import theme
-from app.documents.document import NcDocument
+from app.documents.document import ContourDocument, NcDocument
 from app.documents.paths import current_folder
 from app.documents.service import DocumentService, Opened
 from app.documents.settings import SettingsFile
@@ -98,6 +98,9 @@ class CutcompApp(TransformActions):
         self.drawing: Path | None = None
         self.settings_file = settings_file or SettingsFile()
         self.settings = self.settings_file.held
+        document = None if opened is None else opened.document
+        # an NC text opens over a new program
+        self.document = document if isinstance(document, ContourDocument) else self.service.new().document
         self.character_sets = character_sets
         self.set_reactive(CutcompApp.characters, character_sets[0])
         self.posted_for = CENTER_PATH
@@ -234,7 +237,7 @@ class CutcompApp(TransformActions):
         over = self.screen_stack[depth + 1 :]
         documents = [proof.document for proof in self.proofs if proof in over]
         if await self.may_close("LEAVE NC PROOF?", documents):
-            self.close_documents(documents)
+            await self.close_documents(documents)
             self._uncover(depth)
 
     def action_command_palette(self) -> None:

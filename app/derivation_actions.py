@@ -13,7 +13,6 @@ from textual.reactive import var
 from textual.timer import Timer
 from textual.worker import get_current_worker
 
-from app.documents.document import ContourDocument
 from app.screens.base import BaseScreen
 from app.screens.contour import ContourScreen
 from app.session.derivation import advised, derived, lookahead_table
@@ -39,8 +38,8 @@ class DerivationActions(App[int]):
     that a half-typed number would make.
     """
 
-    session: var[Session] = var(lambda: Session.of(ContourDocument.of(Program())), init=False)
-    shown: var[Session] = var(lambda: Session.of(ContourDocument.of(Program())), init=False)
+    session: var[Session] = var(lambda: Session.of(Program()), init=False)
+    shown: var[Session] = var(lambda: Session.of(Program()), init=False)
     guided: var[bool] = var(default=False, init=False)
     """Whether the prompt guides through a first part; Esc ends the guide."""
     characters: var[str] = var("braille", init=False)

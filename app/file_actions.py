@@ -7,7 +7,6 @@ from __future__ import annotations
 
 import asyncio
 from collections.abc import Callable, Iterable
-from dataclasses import replace
 from functools import partial
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, TypeVar
@@ -57,6 +56,7 @@ class FileActions(DerivationActions):
     """
 
     service: DocumentService
+    document: ContourDocument
     settings: Settings
     settings_file: SettingsFile
 
@@ -73,10 +73,10 @@ class FileActions(DerivationActions):
 
     # ---- every edit goes to disk
 
-    @property
-    def document(self) -> ContourDocument:
-        """The open contour program."""
-        return self.session.document
+    def keep(self, session: Session) -> None:
+        """Write the session's edits to disk before the next key is read."""
+        self.document = self.document.edited(session.history, session.place, session.cursor.field or SEGMENT_FIELD)
+        self.keep_document(self.document)
 
     def keep_document(self, document: Document) -> None:
         """Write a document's edits to disk, or say why they are not there."""
@@ -137,7 +137,7 @@ class FileActions(DerivationActions):
             # for example, a number was retyped unchanged
             self.try_out(None)
             return
-        self.keep_document(session.document)
+        self.keep(session)
         self.session = session
         self.shown = session
         self._advise_later()
@@ -181,7 +181,8 @@ class FileActions(DerivationActions):
             else:
                 self.show_nc(document)
         else:
-            self.begin(Session.of(document))
+            self.document = document
+            self.begin(session_of(document))
             self._uncover(0)
             if document.file.path is not None:
                 self.keep_settings(self.settings.using(document.file.path))
@@ -257,7 +258,7 @@ class FileActions(DerivationActions):
             if not await self.may_close("OPEN?", self._all_open()):
                 self.disk.do(lambda: self.service.close(document))
                 return
-            self.close_documents(self._all_open())
+            await self.close_documents(self._all_open())
         self.adopt(opened)
 
     async def _open_already(
@@ -275,7 +276,7 @@ class FileActions(DerivationActions):
                 self._uncover(self.screen_stack.index(proof))
             self.say(trouble.text)
         elif await self.may_close("OPEN AGAIN?", self._all_open()):
-            self.close_documents(self._all_open())
+            await self.close_documents(self._all_open())
             result = self.disk.do(opened)
             self.adopt(result if isinstance(result, Opened) else self.service.new())
             if isinstance(result, Trouble):
@@ -296,7 +297,7 @@ class FileActions(DerivationActions):
         """Start a new program if everything open may be closed; return whether it was started."""
         if not await self.may_close(title, self._all_open()):
             return False
-        self.close_documents(self._all_open())
+        await self.close_documents(self._all_open())
         self.adopt(self.service.new(unit))
         return True
 
@@ -322,10 +323,15 @@ class FileActions(DerivationActions):
                 return False
         return not ours or not self.document.unsaved or await self.saved(None, None)
 
-    def close_documents(self, documents: Iterable[Document]) -> None:
+    async def close_documents(self, documents: Iterable[Document]) -> None:
         """Close documents: remove their journals and locks."""
-        for document in documents:
-            self.disk.do(partial(self.service.close, document))
+        closing = tuple(documents)
+
+        def close() -> None:
+            for document in closing:
+                self.service.close(document)
+
+        self.disk.do(close)
 
     def show_nc(self, document: NcDocument, asked: Asked | None = None) -> None:
         """Open NC PROOF on a text; `asked` holds the control, tools and unit of the command line."""
@@ -408,7 +414,7 @@ class FileActions(DerivationActions):
         """Close an NC text; ask about unsaved changes."""
         if await self.may_close("LEAVE?", [document]) and self.proof is not None:
             document = self.proof.document
-            self.close_documents([document])
+            await self.close_documents([document])
             await self.run_action("app.back")
             if len(self.screen_stack) == 1 and self.document.is_new and document.file.path is not None:
                 # cutcomp was started on an NC text: go to its folder, not to a form that was never used
@@ -456,7 +462,8 @@ class FileActions(DerivationActions):
         if proof is not None:
             proof.saved(result.document)
         else:
-            self.begin(replace(self.session, document=self.document.after_saving(result.document)))
+            self.document = self.document.after_saving(result.document)
+            self.begin(session_of(self.document, self.session))
             if self.document.file.path is not None:
                 self.keep_settings(self.settings.using(self.document.file.path))
             self.quiet()
@@ -472,10 +479,24 @@ class FileActions(DerivationActions):
     @work(group="question")
     async def _leave(self) -> None:
         if await self.may_close("QUIT?", self._all_open()):
-            self.close_documents(self._all_open())
+            await self.close_documents(self._all_open())
             self.exit(0)
 
 
 def _file_of_name(path: Path) -> Path:
     """Return the file a typed name means: an NC program or drawing by its suffix, else a cutcomp program."""
     return path if path.suffix.lower() in NC_SUFFIXES or is_drawing(path) else program_named(path)
+
+
+def session_of(document: ContourDocument, before: Session | None = None) -> Session:
+    """Return the session on a document; reuse the results of `before` if the program is the same."""
+    session = Session.of_history(
+        document.history,
+        document.saved_program,
+        document.cursor,
+        document.field_name,
+        document.file.path,
+        document.title,
+        look_only=document.file.holder is not None,
+    )
+    return session if before is None or before.program is not session.program else session.like(before)

@@ -14,6 +14,7 @@ from app.documents.document import ContourDocument
 from app.documents.nc_text import NC_SUFFIXES
 from app.documents.paths import is_drawing, program_named
 from app.documents.patience import EXIT_SECONDS
+from app.documents.programs import empty_program
 from app.documents.service import DocumentService, Notice, Opened, Trouble
 from app.documents.settings import SettingsFile, load_settings, settings_file
 from core.program.file.read import StoreError
@@ -77,7 +78,7 @@ def made(
 ) -> CutcompApp:
     """Return the App on a document, set up for the terminal and with the settings of last time."""
     from app.app import CutcompApp
-    from app.session.session import Session
+    from app.file_actions import session_of
     from app.terminal import character_set, driver, key_sequences
     from app.terminal.capabilities import monochrome
 
@@ -94,10 +95,9 @@ def made(
     )
     if settings.characters in character_sets and not options.characters:
         character_sets = (settings.characters, *(each for each in character_sets if each != settings.characters))
-    # an NC text opens over a new program
-    program = opened.document if isinstance(opened.document, ContourDocument) else service.new().document
+    program = opened.document if isinstance(opened.document, ContourDocument) else ContourDocument.of(empty_program())
     app = CutcompApp(
-        Session.of(program),
+        session_of(program),
         character_sets=character_sets,
         few_colors=not browser and driver.few_colors(os.environ),
         light=options.light or settings.theme == "light",

@@ -242,9 +242,6 @@ class DocumentService:
         opened = self._next_offer(document, kept_copy)
         return replace(opened, notice=opened.notice or notice)
 
-    def _kept(self, document: Document) -> _Kept:
-        return self._open.setdefault(document.file.opening, _Kept(document))
-
     def _remember(self, kept: _Kept, document: AnyDocument) -> AnyDocument:
         kept.known = document
         return document
@@ -430,7 +427,7 @@ class DocumentService:
     def keep(self, document: Document) -> Notice | None:
         """Write the edits since the last call to disk; call it before the next key is read."""
         closed = document.file.opening not in self._open
-        kept = self._kept(document)
+        kept = self._open.setdefault(document.file.opening, _Kept(document))
         known, kept.known = kept.known, document
         if closed and document.unsaved:
             # edited while its closing waited for the disk: it is open again, with all of its work
@@ -552,7 +549,7 @@ class DocumentService:
     def _save(
         self, document: AnyDocument, path: Path | None, agreed: frozenset[str]
     ) -> Saved[AnyDocument] | Ask | Trouble:
-        kept, file = self._kept(document), document.file.path
+        kept, file = self._open[document.file.opening], document.file.path
         if path is None and file is None:
             return Trouble(f"{name_of(document)} has no name yet. SAVE AS (Ctrl+K) gives it one.")
         target = file if path is None else chosen(path, file)

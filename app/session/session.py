@@ -9,7 +9,6 @@ from dataclasses import dataclass, fields, replace
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from app.documents.document import ContourDocument
 from core.pipeline.derived import Derived, DerivedBlock
 from core.pipeline.fields_stage import solve_fields
 from core.program.edit import FIRST_START, SEGMENT_FIELD, FormPlace, is_empty
@@ -35,51 +34,64 @@ class Cursor:
 class Session:
     """The current work.
 
-    `document` holds the program, its undo history, its file and the cursor as the journal keeps it.  `derived` always
-    belongs to its program: without paths at first, complete once the worker is done.  `table` is a block and its
-    look-ahead table.
+    `file` is None until the program has a name; `saved` is the program in the file.  `derived` always belongs to
+    `program`: without paths at first, complete once the worker is done.  `title` names the example it started from.
+    `table` is a block and its look-ahead table.  `look_only`: someone else has the file open.
     """
 
-    document: ContourDocument
+    history: History
+    saved: Program
     derived: Derived
     cursor: Cursor
+    file: Path | None = None
+    title: str = ""
     table: tuple[DerivedBlock, Table | None] | None = None
+    look_only: bool = False
 
     @staticmethod
-    def of(document: ContourDocument) -> Session:
-        """Return a session on a document with the cursor where it was; in a new program, on its first field."""
-        program, field = document.program, document.field_name
-        if field == SEGMENT_FIELD and not document.history.past:
-            field = _first_field(program)
-        return Session(document, solve_fields(program), Cursor(nearest_place(program, document.cursor), field))
+    def of(program: Program, title: str = "") -> Session:
+        """Return a session that starts with this program, with the cursor on START of block 1."""
+        cursor = Cursor(field=_first_field(program))
+        return Session(History(program), program, solve_fields(program), cursor, title=title)
 
-    @property
-    def history(self) -> History:
-        """The program with all that can be undone and redone."""
-        return self.document.history
+    @staticmethod
+    def of_history(
+        history: History,
+        saved: Program,
+        place: FormPlace,
+        field: str,
+        file: Path | None,
+        title: str,
+        *,
+        look_only: bool = False,
+    ) -> Session:
+        """Return a session with a history and the cursor where it was; in a new program, on its first field."""
+        if field == SEGMENT_FIELD and not history.past:
+            field = _first_field(history.program)
+        cursor = Cursor(nearest_place(history.program, place), field)
+        derived = solve_fields(history.program)
+        return Session(history, saved, derived, cursor, file, title, look_only=look_only)
+
+    def like(self, before: Session) -> Session:
+        """Return the session with the results and the cursor of `before`, a session on the same program."""
+        return replace(self, derived=before.derived, cursor=before.cursor, table=before.table)
 
     @property
     def program(self) -> Program:
         """The current program."""
-        return self.document.program
-
-    @property
-    def file(self) -> Path | None:
-        """The program's file; None until it has a name."""
-        return self.document.file.path
+        return self.history.program
 
     @property
     def unsaved(self) -> bool:
         """True if the file does not hold the current program."""
-        return self.document.unsaved
+        return self.program is not self.saved and self.program != self.saved
 
     @property
     def file_label(self) -> str:
         """The program's name as screens show it, with a star if it has unsaved changes."""
-        if self.document.file.holder is not None:
+        if self.look_only:
             return f"LOOK ONLY {self.file.stem if self.file else ''}"
-        title = self.document.title
-        name = self.file.stem if self.file else f"{title} (example)" if title else "NO NAME"
+        name = self.file.stem if self.file else f"{self.title} (example)" if self.title else "NO NAME"
         return f"{name}{' *' if self.unsaved else ''}"
 
     @property
@@ -121,7 +133,7 @@ class Session:
 
     def at(self, place: FormPlace, field: str | None = SEGMENT_FIELD) -> Session:
         """Return the session with the cursor moved to a place, or to the nearest one that exists."""
-        return self._at(self.history, Cursor(nearest_place(self.program, place), field))
+        return replace(self, cursor=Cursor(nearest_place(self.program, place), field))
 
     def without_empty(self) -> Session:
         """Return the session with the insertion of an empty new segment at the cursor undone, if there is one."""
@@ -146,8 +158,7 @@ class Session:
 
     def trying(self, derived: Derived) -> Session:
         """Return the session as it would be with another program, for display only."""
-        history = replace(self.history, program=derived.program)
-        return replace(self, document=replace(self.document, history=history), derived=derived)
+        return replace(self, history=replace(self.history, program=derived.program), derived=derived)
 
     def _moved_to_change(self, history: History) -> Session:
         place = changed(self.program, history.program)
@@ -160,11 +171,7 @@ class Session:
         place = nearest_place(history.program, self.place)
         same_form = place == self.place and _kind(history.program, place) is _kind(self.program, place)
         cursor = self.cursor if same_form else Cursor(place)
-        return replace(self._at(history, cursor), derived=solve_fields(history.program))
-
-    def _at(self, history: History, cursor: Cursor) -> Session:
-        document = self.document.edited(history, cursor.place, cursor.field or SEGMENT_FIELD)
-        return replace(self, document=document, cursor=cursor)
+        return replace(self, history=history, derived=solve_fields(history.program), cursor=cursor)
 
 
 def _first_field(program: Program) -> str:

@@ -18,11 +18,11 @@ from app.documents.programs import example
 from app.documents.service import DocumentService, Opened
 from app.documents.settings import Settings, SettingsFile, load_settings
 from app.documents.survey import Facts
+from app.file_actions import session_of
 from app.nc_proof.screen import ProofScreen
 from app.screens.dialogs import Question
 from app.screens.home import HomeScreen
 from app.screens.import_drawing import ImportScreen
-from app.session.session import Session
 from core.program.edit import FormPlace
 from core.program.model import Number
 from core.units import Unit
@@ -47,7 +47,7 @@ async def at_work(folder: Path, name: str = "part.toml", **options) -> AsyncIter
     opened = service.open(folder / name) if name else service.new(offers=True)
     assert isinstance(opened, Opened)
     app = CutcompApp(
-        Session.of(opened.document),
+        session_of(opened.document),
         surroundings=SURROUNDINGS,
         service=service,
         opened=opened,
@@ -256,7 +256,7 @@ async def test_opening_another_program_asks_about_unsaved_work(folder):
         await user.press("n", "enter")
         assert isinstance(user.app.screen, Question)
         await user.press("d")
-        assert user.session.document.title == "notch"
+        assert user.session.title == "notch"
         assert load(folder / "part.toml") == load(example("pocket"))
         assert journals(folder) == []
 

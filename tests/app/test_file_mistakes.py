@@ -9,10 +9,10 @@ import pytest
 from textual.widgets import DataTable, Input, Label
 
 from app.app import CutcompApp
-from app.documents.document import ContourDocument
 from app.documents.files import load
 from app.documents.programs import example
 from app.documents.service import DocumentService
+from app.file_actions import session_of
 from app.nc_proof.screen import ProofScreen
 from app.screens.contour import ContourScreen
 from app.screens.dialogs import Phrase, Question
@@ -170,7 +170,7 @@ async def test_an_nc_line_still_being_typed_is_asked_about(folder):
 async def test_saving_an_unnamed_program_at_quit_asks_for_a_name_and_then_leaves(folder):
     service = DocumentService(state=folder / "own")
     opened = service.new()
-    app = CutcompApp(Session.of(opened.document), surroundings=SURROUNDINGS, service=service, opened=opened)
+    app = CutcompApp(session_of(opened.document), surroundings=SURROUNDINGS, service=service, opened=opened)
     async with app.run_test(size=(80, 24)) as pilot:
         user = Operator(app, pilot)
         await user.press("'7", "ctrl+q", "s")
@@ -195,7 +195,7 @@ async def test_opening_a_program_over_an_edited_nc_text_asks_and_closes_the_text
         assert len(user.app.proofs) == 1
         await user.press("enter", key)
         assert isinstance(user.app.screen, ContourScreen)
-        assert user.session.document.title == "notch"
+        assert user.session.title == "notch"
         assert [path.name for path in folder.iterdir() if path.name.startswith(".")] == []
     assert (folder / "a.nc").read_bytes() == saved
 
@@ -280,7 +280,7 @@ async def test_a_deleted_current_folder_is_reported_on_saving(folder, monkeypatc
     monkeypatch.chdir(gone)
     service = DocumentService(state=folder / "own")
     opened = service.new()
-    app = CutcompApp(Session.of(ContourDocument.of(load(example("pocket")))), service=service, opened=opened)
+    app = CutcompApp(Session.of(load(example("pocket"))), service=service, opened=opened)
     async with app.run_test(size=(80, 24)) as pilot:
         user = Operator(app, pilot)
         gone.rmdir()

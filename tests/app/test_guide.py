@@ -10,7 +10,7 @@ from pathlib import Path
 from app.app import CutcompApp
 from app.documents.files import load
 from app.documents.service import DocumentService
-from app.session.session import Session
+from app.file_actions import session_of
 from core.pipeline.derive import derive
 from core.program.model import CutterComp
 from tests.app.widget_pilot import SURROUNDINGS, Operator
@@ -23,7 +23,7 @@ async def guided(folder: Path) -> AsyncIterator[Operator]:
     """An operator who has started the guide."""
     service = DocumentService(state=folder / "own")
     opened = service.new()
-    app = CutcompApp(Session.of(opened.document), surroundings=SURROUNDINGS, service=service, opened=opened)
+    app = CutcompApp(session_of(opened.document), surroundings=SURROUNDINGS, service=service, opened=opened)
     async with app.run_test(size=(80, 24)) as pilot:
         user = Operator(app, pilot)
         await user.settle()

@@ -8,7 +8,6 @@ from time import monotonic
 import pytest
 
 from app.app import CutcompApp
-from app.documents.document import ContourDocument
 from app.documents.files import load
 from app.documents.programs import example
 from app.session.session import Session
@@ -23,7 +22,7 @@ PATIENCE = 60.0
 
 
 async def test_the_whole_screen_is_repainted_after_the_last_message(monkeypatch: pytest.MonkeyPatch) -> None:
-    program = CutcompApp(Session.of(ContourDocument.of(load(example("notch")))), surroundings=SURROUNDINGS)
+    program = CutcompApp(Session.of(load(example("notch"))), surroundings=SURROUNDINGS)
     async with program.run_test(notifications=True) as pilot:
         painted: list[int] = []
         refresh = type(program.screen).refresh
@@ -50,7 +49,7 @@ async def test_undo_takes_away_the_message_that_offers_it(monkeypatch: pytest.Mo
     notify = CutcompApp.notify
     # on a busy machine a key may take longer than the message stays
     monkeypatch.setattr(CutcompApp, "notify", lambda app, text, **how: notify(app, text, **{**how, "timeout": 60.0}))
-    program = CutcompApp(Session.of(ContourDocument.of(load(example("notch")))), surroundings=SURROUNDINGS)
+    program = CutcompApp(Session.of(load(example("notch"))), surroundings=SURROUNDINGS)
     async with program.run_test(notifications=True, size=(80, 24)) as pilot:
         user = Operator(program, pilot)
         await user.settle()
@@ -70,7 +69,7 @@ async def toasts(user: Operator, count: int) -> None:
 
 
 async def test_an_ended_program_ignores_the_end_of_a_message() -> None:
-    program = CutcompApp(Session.of(ContourDocument.of(load(example("notch")))), surroundings=SURROUNDINGS)
+    program = CutcompApp(Session.of(load(example("notch"))), surroundings=SURROUNDINGS)
     async with program.run_test(notifications=True):
         later: list[Callable[[], None]] = []
         with pytest.MonkeyPatch.context() as patch:

@@ -19,7 +19,6 @@ from textual.screen import ModalScreen, Screen
 from textual.worker import WorkerCancelled
 
 from app.app import CutcompApp
-from app.documents.document import ContourDocument
 from app.documents.files import load
 from app.documents.programs import example
 from app.screens.base import BaseScreen
@@ -55,9 +54,7 @@ def key_event(key: str) -> Key:
 
 def session_on(start: str | Program) -> Session:
     """An example by its name, or a program."""
-    if isinstance(start, str):
-        return Session.of(ContourDocument.of(load(example(start)), title=start))
-    return Session.of(ContourDocument.of(start))
+    return Session.of(load(example(start)), title=start) if isinstance(start, str) else Session.of(start)
 
 
 def paint_at_rest(screen: Screen[Any]) -> None:
@@ -87,7 +84,6 @@ class Operator:
     async def begin(self, start: str | Program, segment: int = 0, field: str = "segment") -> None:
         """Show the form of another example or program, with the cursor on a field of its first block."""
         self.app._uncover(0)
-        self.app.close_documents([self.app.document])
         self.app.begin(session_on(start).at(FormPlace(1, segment), field))
         await self.settle()
         assert self.at == field

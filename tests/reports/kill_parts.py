@@ -14,6 +14,7 @@ from app.documents.document import ContourDocument, FileState
 from app.documents.journal import Journal
 from app.documents.nc_text import NcText
 from app.documents.programs import empty_program
+from app.file_actions import session_of
 from app.screens.contour import NEW_SEGMENTS
 from app.screens.contour_cells import fields_at, value_at
 from app.session.session import Session
@@ -133,7 +134,7 @@ class ContourPart(Part):
 
     def begin(self, journal: Journal | None) -> None:
         document = ContourDocument.of(self._program(), FileState(self.file))
-        self.session = Session.of(document if journal is None else document.restored(journal))
+        self.session = session_of(document if journal is None else document.restored(journal))
         self.states, self.acknowledged = [], 0
         self._add()
 

@@ -39,12 +39,12 @@ from app.documents.lock import take
 from app.documents.nc_text import NcText
 from app.documents.service import DocumentService, Opened, Trouble
 from app.documents.settings import Settings, SettingsFile
+from app.file_actions import session_of
 from app.nc_proof.screen import ProofScreen
 from app.screens.base import BaseScreen
 from app.screens.contour import ContourScreen
 from app.screens.contour_cells import cells_at
 from app.screens.form_screen import FormScreen
-from app.session.session import Session
 from app.widgets.field import FieldRow
 from core.program.file.read import loads
 from core.program.file.write import dumps
@@ -338,7 +338,7 @@ class Cage:
             opened = service.new()
         document = opened.document if isinstance(opened.document, ContourDocument) else service.new().document
         return Observed(
-            Session.of(document),
+            session_of(document),
             surroundings=SURROUNDINGS,
             service=service,
             opened=opened,

@@ -27,7 +27,9 @@ CURSOR: Final = "87d7ff"
 """The ground of the cursor among 256 colors."""
 LONGEST: Final = 120.0
 """Seconds until a program that still works is given up: a busy machine may be slow."""
-PASSING: Final = re.compile("[▌|] .*(?:Saved|Deleted|Posted|Written|Tool, feeds)|press the softkey now|no value is clean")
+PASSING: Final = re.compile(
+    "[▌|] .*(?:Saved|Deleted|Posted|Written|Tool, feeds)|press the softkey now|no value is clean"
+)
 """A toast, and what Esc says of the digits, go by themselves after a few seconds; why no value is clean comes later."""
 LONGEST_PASSING: Final = 20.0
 """Seconds that the program is waited for while something stands that goes by itself."""

@@ -17,6 +17,7 @@ from app.documents.files import load
 from app.documents.nc_text import NcText
 from app.documents.programs import example
 from app.documents.service import DocumentService, Opened
+from app.file_actions import session_of
 from app.nc_proof.dialogs import CompareControls
 from app.nc_proof.listing import Listing
 from app.nc_proof.runs import Question as Asking
@@ -25,7 +26,6 @@ from app.nc_proof.screen import ProofScreen, read_tool
 from app.screens.base import OpeningScreen
 from app.screens.dialogs import Question
 from app.screens.home import HomeScreen
-from app.session.session import Session
 from app.session.work import Work
 from app.widgets.drawing import Drawing
 from app.widgets.status import Status
@@ -83,7 +83,7 @@ async def at_proof(
     service = DocumentService(state=tmp_path / "own")
     opening = service.open(tmp_path / "p.nc")
     assert isinstance(opening, Opened)
-    session = Session.of(service.new().document)
+    session = session_of(service.new().document)
     app = CutcompApp(session, surroundings=SURROUNDINGS, service=service, opened=opening, asked=asked)
     async with app.run_test(size=size) as pilot:
         user = Proof(app, pilot)

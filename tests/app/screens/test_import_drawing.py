@@ -14,10 +14,10 @@ from textual.widgets import DataTable, Label
 
 from app.app import CutcompApp
 from app.documents import drawing_files
-from app.documents.document import ContourDocument
 from app.documents.programs import empty_program
 from app.documents.service import DocumentService
 from app.documents.settings import Settings, SettingsFile
+from app.file_actions import session_of
 from app.screens.dialogs import ChooseSeveral, NumberForm, Question
 from app.screens.import_drawing import ImportScreen
 from app.session.messages import Tone
@@ -134,7 +134,7 @@ async def importer(source: Path | bytes, tmp_path: Path, *, unit: Unit = Unit.MM
 @asynccontextmanager
 async def running(unit: Unit = Unit.MM) -> AsyncIterator[Importer]:
     """An operator at an empty program."""
-    app = CutcompApp(Session.of(ContourDocument.of(empty_program(unit))), surroundings=SURROUNDINGS)
+    app = CutcompApp(Session.of(empty_program(unit)), surroundings=SURROUNDINGS)
     async with app.run_test(size=(80, 24)) as pilot:
         user = Importer(app, pilot)
         await user.settle()
@@ -427,7 +427,7 @@ async def test_home_lists_drawings_and_opens_one(tmp_path, monkeypatch):
     monkeypatch.chdir(tmp_path)
     (tmp_path / "plate.dxf").write_bytes(dxf(*square(0, 0, 10)))
     service = DocumentService(state=tmp_path / "own")
-    app = CutcompApp(Session.of(service.new(Unit.MM).document), surroundings=SURROUNDINGS, service=service, home=True)
+    app = CutcompApp(session_of(service.new(Unit.MM).document), surroundings=SURROUNDINGS, service=service, home=True)
     async with app.run_test(size=(80, 24)) as pilot:
         user = Importer(app, pilot)
         await user.settle()
@@ -448,7 +448,7 @@ async def test_open_of_a_drawing_by_its_path_lists_it(tmp_path, monkeypatch):
     service = DocumentService(state=tmp_path / "own")
     settings = SettingsFile(tmp_path / "settings.toml", Settings())
     program = service.new(Unit.MM).document
-    app = CutcompApp(Session.of(program), surroundings=SURROUNDINGS, service=service, settings_file=settings)
+    app = CutcompApp(session_of(program), surroundings=SURROUNDINGS, service=service, settings_file=settings)
     async with app.run_test(size=(80, 24)) as pilot:
         user = Importer(app, pilot)
         await user.settle()

@@ -11,7 +11,6 @@ from textual.widgets import DataTable, Input, OptionList, Static
 
 from app.documents.files import load
 from app.documents.programs import example
-from app.documents.service import DocumentService, Notice
 from app.screens.contour import ContourScreen
 from app.screens.draw import DrawScreen
 from app.screens.form_screen import FormScreen
@@ -103,13 +102,6 @@ async def test_tools_are_added_typed_renumbered_and_deleted(user: Operator):
     await user.press("f1")
     await user.finish()
     assert [tool.number for tool in user.session.program.tools] == [1]
-
-
-async def test_a_notice_about_the_disk_leaves_the_cursor_on_the_diameter_of_a_new_tool(user: Operator, monkeypatch):
-    monkeypatch.setattr(DocumentService, "keep", lambda *_: Notice("Work is kept on the disk again."))
-    await run(user, "app.tools")
-    await user.press("f2")
-    assert user.at == "diameter@1"
 
 
 async def test_the_cursor_follows_a_tool_whose_new_number_moves_it(user: Operator):
@@ -276,13 +268,13 @@ async def test_a_screen_being_composed_shows_the_latest_session_once_ready(user:
     for screen in (DrawScreen, HelpScreen, LookaheadScreen, ToolsScreen, ProgramScreen):
         new_screen = screen()
         pushed = user.app.push_screen(new_screen)
-        changed = replace(user.session, document=replace(user.session.document, title=screen.__name__))
+        changed = replace(user.session, title=screen.__name__)
         user.app.session = user.app.shown = changed
         user.app.show_work()
         await pushed
         await user.settle()
         assert new_screen.session is user.app.session, screen
-        assert user.session.document.title == screen.__name__
+        assert user.session.title == screen.__name__
         user.app.pop_screen()
         await user.settle()
 

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from dataclasses import replace
 
-from app.documents.document import ContourDocument
 from app.documents.programs import empty_program
 from app.session.session import Session, changed
 from core.pipeline.fields_stage import solve_fields
@@ -14,7 +13,7 @@ from core.program.model import LineSegment, Number, Program
 
 def session(*segments: LineSegment) -> Session:
     program = empty_program()
-    return Session.of(ContourDocument.of(replace(program, blocks=(replace(program.blocks[0], segments=segments),))))
+    return Session.of(replace(program, blocks=(replace(program.blocks[0], segments=segments),)))
 
 
 def with_start(program: Program, x: float) -> Program:
@@ -25,7 +24,7 @@ def test_an_edit_is_unsaved_until_it_is_saved_or_undone():
     before = session()
     edited = before.with_program(with_start(before.program, 1.0), "X START")
     assert (before.unsaved, edited.unsaved) == (False, True)
-    assert not replace(edited, document=edited.document.saved(edited.document.file)).unsaved
+    assert not replace(edited, saved=edited.program).unsaved
     assert not edited.undone().unsaved
     assert edited.undone().redone().program == edited.program
 

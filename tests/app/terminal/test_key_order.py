@@ -13,7 +13,7 @@ from textual.message_pump import MessagePump
 
 from app.app import CutcompApp
 from app.documents.service import DocumentService
-from app.session.session import Session
+from app.file_actions import session_of
 from app.terminal import key_order
 from app.terminal.key_order import KeyOrder
 from app.terminal.split_keys import TORN, UNENDED
@@ -56,7 +56,7 @@ async def test_a_torn_key_and_an_unended_paste_are_reported_and_keep_half_typed_
 
 async def test_keys_after_the_one_that_opens_a_file_go_to_that_file(part: Path, state: Path):
     service = DocumentService(state=state)
-    app = CutcompApp(Session.of(service.new().document), surroundings=SURROUNDINGS, service=service, home=True)
+    app = CutcompApp(session_of(service.new().document), surroundings=SURROUNDINGS, service=service, home=True)
     async with app.run_test(size=(80, 24)) as pilot:
         user = Operator(app, pilot)
         await user.settle()

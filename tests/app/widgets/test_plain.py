@@ -7,7 +7,6 @@ from pathlib import Path
 
 import app
 from app.app import CutcompApp
-from app.documents.document import ContourDocument
 from app.documents.files import load
 from app.documents.programs import example
 from app.session.session import Session
@@ -24,7 +23,7 @@ def test_only_plain_py_uses_textual_static_and_label() -> None:
 
 
 async def test_brackets_in_a_message_stay() -> None:
-    program = CutcompApp(Session.of(ContourDocument.of(load(example("notch")))), surroundings=SURROUNDINGS)
+    program = CutcompApp(Session.of(load(example("notch"))), surroundings=SURROUNDINGS)
     async with program.run_test(notifications=True) as pilot:
         program.notify("Saved: c[/d]a.toml")
         await pilot.pause()
