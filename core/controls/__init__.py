@@ -1,6 +1,6 @@
 """This package runs NC programs as each control reads and compensates them.
 
-`registry` runs a program on any control by name; `judged_runs` judges its path against the programmed contour;
+`registry` runs a program on any control by name; `judging` judges its path against the programmed contour;
 `compared_controls` compares all controls on one program, `compared_contours` two programs of any language.
 
 Word-address controls share the reader, the modal machine and the macros of `iso` and the joints of `compensation`;

@@ -13,7 +13,7 @@ from core.controls.control_run import ControlRun, Stretch
 from core.controls.control_tools import ToolTable
 from core.controls.iso.execute import NO_LIBRARY
 from core.controls.iso.flow import ProgramLibrary
-from core.controls.judged_runs import Judged, deepest_gouge, judge_run
+from core.controls.judging.judged_runs import Judged, deepest_gouge, judge_run
 from core.controls.moves import Moves
 from core.controls.registry import UnknownControl, compared, reads, run, run_with_tiny_tool
 from core.controls.write.read_back import MIN_TOLERANCE

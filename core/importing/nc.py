@@ -12,10 +12,10 @@ from dataclasses import replace
 from math import dist, pi
 from typing import Final
 
-from core.controls.contours_and_leads import split_where_it_closes
 from core.controls.control_names import display_name
 from core.controls.control_run import ControlRun, Stretch
 from core.controls.control_tools import ToolTable
+from core.controls.judging.contours_and_leads import split_where_it_closes
 from core.controls.moves import Moves, Plane, runs_of
 from core.controls.registry import UnknownControl, run
 from core.finding import Severity

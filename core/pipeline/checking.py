@@ -9,7 +9,6 @@ from enum import StrEnum, auto
 from shlex import quote
 from typing import Final
 
-from core.controls import shop_rules
 from core.controls.compared_contours import ContourPair, Parting, contours
 from core.controls.compared_controls import Compared, OtherLanguage, compare
 from core.controls.control_names import display_name
@@ -18,8 +17,9 @@ from core.controls.control_tools import ToolId, ToolTable
 from core.controls.iso.execute import NO_LIBRARY
 from core.controls.iso.flow import ProgramLibrary
 from core.controls.iso.modal_state import RADIUS_ZERO
-from core.controls.judged_findings import judged_findings
-from core.controls.judged_runs import Judged, deepest_gouge, first_unjudged, judge_run
+from core.controls.judging import shop_rules
+from core.controls.judging.judged_findings import judged_findings
+from core.controls.judging.judged_runs import Judged, deepest_gouge, first_unjudged, judge_run
 from core.controls.moves import Move, Moves
 from core.controls.registry import UnknownControl, reads, run
 from core.finding import Finding, Severity

@@ -10,7 +10,7 @@ from typing import Final
 from core.controls.control_run import ControlRun
 from core.controls.control_tools import CutterTool, ToolTable, tool_id
 from core.controls.iso.flow import ProgramLibrary
-from core.controls.judged_runs import deepest_gouge, judge_run
+from core.controls.judging.judged_runs import deepest_gouge, judge_run
 from core.controls.registry import UnknownControl, run
 from core.finding import Finding, Severity
 from core.progress import Progress, silent

@@ -12,7 +12,7 @@ from core.controls.control_run import ControlRun, Stretch
 from core.controls.control_tools import ToolTable
 from core.controls.iso.execute import NO_LIBRARY
 from core.controls.iso.flow import ProgramLibrary
-from core.controls.judged_runs import Judged, judge_run
+from core.controls.judging.judged_runs import Judged, judge_run
 from core.controls.moves import Moves, Plane
 from core.controls.registry import UnknownControl, run
 from core.draw.scene import Circle, Layer, Mark, Scene, Style, Symbol, contour_scene, joined_scenes

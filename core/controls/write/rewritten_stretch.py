@@ -13,8 +13,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from core.controls.compensation.elements import offset_point, point_along
-from core.controls.contours_and_leads import contour_of
 from core.controls.control_run import ControlRun, Stretch
+from core.controls.judging.contours_and_leads import contour_of
 from core.controls.moves import Plane
 from core.controls.write.contour_pass import ContourPass, PassWithLeads, PathEnd, ProgrammedElements, element_of
 from core.controls.write.iso_style import IsoStyle

@@ -4,8 +4,8 @@ from __future__ import annotations
 
 from core.controls import registry
 from core.controls.control_run import ControlRun
-from core.controls.judged_findings import judged_findings
-from core.controls.judged_runs import judge_run
+from core.controls.judging.judged_findings import judged_findings
+from core.controls.judging.judged_runs import judge_run
 from core.finding import Severity
 from tests.core.controls.hand import findings_of
 from tests.tool_tables import end_mills

@@ -10,7 +10,7 @@ import pytest
 
 from core.controls.compensation.element_queue import NO_FIT
 from core.controls.control_run import ControlRun
-from core.controls.judged_runs import judge_run
+from core.controls.judging.judged_runs import judge_run
 from core.controls.moves import Moves, Plane
 from tests.core.controls.hand import ran
 from tests.core.controls.programs import RADIUS, program, turned_to_zx

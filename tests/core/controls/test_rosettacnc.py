@@ -7,7 +7,7 @@ from math import acos, cos, radians, sin, sqrt
 import pytest
 
 from core.controls.control_run import ControlRun
-from core.controls.judged_runs import judge_run
+from core.controls.judging.judged_runs import judge_run
 from tests.core.controls.hand import findings_of, lines_and_ends, ran, same, sample, shape
 
 AFTER_ENTRY = [

@@ -6,7 +6,7 @@ from math import pi, sqrt
 
 import pytest
 
-from core.controls.judged_runs import deepest_gouge, judge_run
+from core.controls.judging.judged_runs import deepest_gouge, judge_run
 from core.finding import Severity
 from core.units import from_mm
 from tests.core.controls.hand import findings_of, ran, same, sample, shape

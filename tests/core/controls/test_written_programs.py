@@ -9,8 +9,8 @@ import numpy as np
 import pytest
 
 from core.comp.compensate import compensate
-from core.controls.judged_findings import judged_findings
-from core.controls.judged_runs import judge_run
+from core.controls.judging.judged_findings import judged_findings
+from core.controls.judging.judged_runs import judge_run
 from core.controls.write.contour_pass import (
     CenterMove,
     UncompensatedPass,

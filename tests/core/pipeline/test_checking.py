@@ -8,7 +8,7 @@ import pytest
 
 from core.controls.control_run import ControlRun
 from core.controls.control_tools import CutterTool, ToolTable
-from core.controls.judged_runs import judge_run
+from core.controls.judging.judged_runs import judge_run
 from core.controls.registry import run
 from core.pipeline.checking import (
     Asked,

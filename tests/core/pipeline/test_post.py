@@ -14,8 +14,8 @@ from app.documents.files import load
 from core.controls.control_names import display_name
 from core.controls.control_run import ControlRun
 from core.controls.control_tools import ToolTable
-from core.controls.judged_findings import judged_findings
-from core.controls.judged_runs import judge_run
+from core.controls.judging.judged_findings import judged_findings
+from core.controls.judging.judged_runs import judge_run
 from core.controls.registry import NO_TOOLS, names, run
 from core.controls.write.written_program import Posted, Refusal
 from core.geometry.distance import distance

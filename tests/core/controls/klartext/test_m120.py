@@ -9,8 +9,8 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from core.controls.control_run import ControlRun
-from core.controls.judged_findings import judged_findings
-from core.controls.judged_runs import judge_run
+from core.controls.judging.judged_findings import judged_findings
+from core.controls.judging.judged_runs import judge_run
 from core.finding import Severity
 from tests.core.controls.klartext.klartext_runs import codes, flat, runs
 from tests.properties import exercised, must_exercise

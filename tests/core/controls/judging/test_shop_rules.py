@@ -5,8 +5,8 @@ from __future__ import annotations
 import pytest
 
 from core.controls.control_run import ControlRun
+from core.controls.judging.shop_rules import check_shop_rules
 from core.controls.registry import run
-from core.controls.shop_rules import check_shop_rules
 from core.finding import Severity
 from tests.tool_tables import end_mills
 

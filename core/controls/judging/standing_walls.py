@@ -18,8 +18,8 @@ from typing import Final
 from shapely import STRtree
 from shapely.geometry import Polygon
 
-from core.controls.contours_and_leads import RowRange, closed_passes, is_closed
-from core.controls.repeated_passes import PathKey, path_key
+from core.controls.judging.contours_and_leads import RowRange, closed_passes, is_closed
+from core.controls.judging.repeated_passes import PathKey, path_key
 from core.geometry.chords import chords_of
 from core.geometry.path import Floats, Path, joined
 from core.geometry.piece import Side

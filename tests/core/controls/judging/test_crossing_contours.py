@@ -6,8 +6,8 @@ import pytest
 
 from core.controls.control_run import ControlRun
 from core.controls.control_tools import CutterTool, ToolTable
-from core.controls.judged_findings import judged_findings
-from core.controls.judged_runs import judge_run
+from core.controls.judging.judged_findings import judged_findings
+from core.controls.judging.judged_runs import judge_run
 from core.controls.registry import run
 from core.finding import Severity
 

@@ -10,7 +10,7 @@ from typing import Final, NamedTuple
 import numpy as np
 
 from core.controls.control_run import Stretch
-from core.controls.repeated_passes import path_key
+from core.controls.judging.repeated_passes import path_key
 from core.geometry.distance import distance, foot
 from core.geometry.path import Floats, Path, Rows, coordinates, joined
 from core.geometry.piece_arrays import at, direction, piece_arrays

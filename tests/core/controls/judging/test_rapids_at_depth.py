@@ -4,8 +4,8 @@ from __future__ import annotations
 
 import pytest
 
-from core.controls.judged_findings import judged_findings
-from core.controls.judged_runs import judge_run
+from core.controls.judging.judged_findings import judged_findings
+from core.controls.judging.judged_runs import judge_run
 from core.finding import Finding, Severity
 from core.units import Unit, sentence
 from tests.core.controls.hand import ran

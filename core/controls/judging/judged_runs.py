@@ -9,7 +9,8 @@ from typing import Final
 
 import numpy as np
 
-from core.controls.contours_and_leads import (
+from core.controls.control_run import ControlRun, Stretch
+from core.controls.judging.contours_and_leads import (
     RowRange,
     between_lead_arcs,
     blend_leads,
@@ -19,15 +20,14 @@ from core.controls.contours_and_leads import (
     leads_at_corner,
     split_where_it_closes,
 )
-from core.controls.control_run import ControlRun, Stretch
-from core.controls.corner_loops import CornerLoop, without_corner_loops
-from core.controls.crossing_contours import ContourCut, cuts_of_other_contours
+from core.controls.judging.corner_loops import CornerLoop, without_corner_loops
+from core.controls.judging.crossing_contours import ContourCut, cuts_of_other_contours
+from core.controls.judging.moves_above import Z_COLUMN, Divided, divided, heights_above
+from core.controls.judging.rapids_at_depth import CutContour, UncompensatedCut, highest_cut, moves_through
+from core.controls.judging.repeated_passes import path_key, without_repeats
+from core.controls.judging.standing_walls import ClosedPass, StandingWall, closed_passes_of, standing_walls
 from core.controls.moves import Moves, Plane
-from core.controls.moves_above import Z_COLUMN, Divided, divided, heights_above
-from core.controls.rapids_at_depth import CutContour, UncompensatedCut, highest_cut, moves_through
 from core.controls.registry import arc_tolerance
-from core.controls.repeated_passes import path_key, without_repeats
-from core.controls.standing_walls import ClosedPass, StandingWall, closed_passes_of, standing_walls
 from core.geometry.nearby import BoxTree, near_pairs
 from core.geometry.path import Floats, Path, Rows, joined
 from core.progress import Progress, silent

@@ -8,9 +8,9 @@ import pytest
 
 from core.controls.control_run import ControlRun
 from core.controls.control_tools import CutterTool, ToolTable
-from core.controls.corner_loops import without_corner_loops
-from core.controls.judged_findings import judged_findings
-from core.controls.judged_runs import Judged, judge_run
+from core.controls.judging.corner_loops import without_corner_loops
+from core.controls.judging.judged_findings import judged_findings
+from core.controls.judging.judged_runs import Judged, judge_run
 from core.controls.registry import run
 from core.finding import Finding, Severity
 from core.geometry.path import Path

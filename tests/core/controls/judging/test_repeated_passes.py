@@ -10,9 +10,9 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from core.controls.control_run import ControlRun
-from core.controls.judged_findings import judged_findings
-from core.controls.judged_runs import deepest_gouge, judge_run
-from core.controls.repeated_passes import without_repeats
+from core.controls.judging.judged_findings import judged_findings
+from core.controls.judging.judged_runs import deepest_gouge, judge_run
+from core.controls.judging.repeated_passes import without_repeats
 from core.geometry.path import Path
 from core.geometry.piece import Arc, Side, Turn
 from core.geometry.piece_arrays import at, piece_arrays

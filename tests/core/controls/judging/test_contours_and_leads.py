@@ -8,9 +8,9 @@ import numpy as np
 import pytest
 
 from core.controls.compared_controls import compare
-from core.controls.contours_and_leads import contour_of, contours_of, is_closed, split_where_it_closes
-from core.controls.judged_findings import judged_findings
-from core.controls.judged_runs import judge_run
+from core.controls.judging.contours_and_leads import contour_of, contours_of, is_closed, split_where_it_closes
+from core.controls.judging.judged_findings import judged_findings
+from core.controls.judging.judged_runs import judge_run
 from core.finding import Finding, Severity
 from core.geometry.path import Path
 from core.geometry.piece import Arc, Line, Turn

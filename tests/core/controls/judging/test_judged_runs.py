@@ -8,8 +8,8 @@ import numpy as np
 import pytest
 
 from core.controls.compared_controls import Compared, OtherLanguage, compare, parting
-from core.controls.judged_findings import judged_findings
-from core.controls.judged_runs import deepest_gouge, first_unjudged, judge_run
+from core.controls.judging.judged_findings import judged_findings
+from core.controls.judging.judged_runs import deepest_gouge, first_unjudged, judge_run
 from core.controls.registry import choices, compared, names, reads, resolve
 from core.finding import Severity
 from core.geometry.path import Path

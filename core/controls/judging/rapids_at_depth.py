@@ -13,8 +13,8 @@ from dataclasses import dataclass
 import numpy as np
 
 from core.controls.control_run import ControlRun, Stretch
+from core.controls.judging.moves_above import surface_rows
 from core.controls.moves import Move, Moves, Plane, runs_of
-from core.controls.moves_above import surface_rows
 from core.geometry.nearby import near_pairs
 from core.geometry.path import Flags, Path
 from core.tolerance import ON_PATH

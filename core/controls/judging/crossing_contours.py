@@ -23,9 +23,9 @@ from shapely.geometry.base import BaseGeometry
 
 from core.controls.control_run import ControlRun, Stretch
 from core.controls.iso.modal_state import TAKEN_AS_ZERO
+from core.controls.judging.rapids_at_depth import CutContour
+from core.controls.judging.repeated_passes import PathKey, path_key
 from core.controls.moves import Moves, Plane
-from core.controls.rapids_at_depth import CutContour
-from core.controls.repeated_passes import PathKey, path_key
 from core.finding import Severity
 from core.geometry.chords import chords_of
 from core.geometry.nearby import near_pairs

@@ -8,10 +8,10 @@ from typing import Final
 
 import numpy as np
 
-from core.controls.contours_and_leads import MAX_LEAD_MOVES
-from core.controls.judged_runs import Judged, ToleratedArc, first_line, line_of
+from core.controls.judging.contours_and_leads import MAX_LEAD_MOVES
+from core.controls.judging.judged_runs import Judged, ToleratedArc, first_line, line_of
+from core.controls.judging.rapids_at_depth import rapid_walls
 from core.controls.moves import Plane
-from core.controls.rapids_at_depth import rapid_walls
 from core.finding import Finding, Severity
 from core.geometry.path import Path
 from core.tolerance import ROUNDING, SMALLEST_SHOWN_LENGTH
