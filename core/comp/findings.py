@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from math import isfinite
 from typing import Final
 
 import numpy as np
@@ -22,24 +21,19 @@ MAX_NAMED_PLACES: Final = 100
 
 def contour_refusals(contour: Path, radius: float, lookaheads: Sequence[int]) -> tuple[Finding, ...]:
     """Return why a contour cannot be compensated at all; empty if it can."""
-    if not isfinite(radius) or not 0.0 < radius <= LARGEST_COORDINATE:
+    if not 0.0 < radius <= LARGEST_COORDINATE:
         return (_error("RADIUS", "The cutter's radius must be a number larger than 0."),)
     if min(lookaheads, default=1) < 1:
         return (_error("LOOKAHEAD", "The look-ahead must be 1 or more."),)
     if not len(contour):
         return (_error("EMPTY_CONTOUR", "The contour has no segment with a length."),)
-    if not _usable(contour.points) or not _usable(contour.centers):
+    if not contour.reachable:
         return (_not_finite(contour),)
     return _not_arcs(contour)
 
 
 def _error(code: str, text: str, segment: float | None = None) -> Finding:
     return Finding(code, Severity.ERROR, text, segment)
-
-
-def _usable(values: Floats) -> bool:
-    """True if all values are coordinates that a machine could have; comparisons with NaN are false."""
-    return bool(np.abs(values).max() <= LARGEST_COORDINATE)
 
 
 def _not_finite(contour: Path) -> Finding:

@@ -98,15 +98,12 @@ def _pieces(layers: Sequence[Layer], view: View) -> _Pieces:
     turns = np.concatenate([np.empty(0, np.int8), *(path.turns for path in paths)])
     sweeps = np.concatenate([np.empty(0), *(np.abs(path.sweeps) for path in paths)])
     along = np.concatenate([np.empty(0), *map(_traveled, layers)])
-    wanted = np.concatenate([np.empty(0, np.bool_), *map(_wanted, layers)])
+    chosen = (np.ones(len(layer.path), np.bool_) if layer.drawn is None else layer.drawn for layer in layers)
+    wanted = np.concatenate([np.empty(0, np.bool_), *chosen])
     drawn = wanted & _within(starts) & _within(ends) & (_within(centers) | (turns == 0)) & np.isfinite(along)
     owners = np.arange(len(layers)).repeat(counts)
     scale = view.scale
     return _Pieces(starts / scale, ends / scale, centers / scale, turns, sweeps, owners, along / scale).only(drawn)
-
-
-def _wanted(layer: Layer) -> Flags:
-    return np.ones(len(layer.path), np.bool_) if layer.drawn is None else layer.drawn
 
 
 def _within(points: Points) -> Flags:

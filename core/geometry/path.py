@@ -18,6 +18,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from core.geometry.piece import ANGLE_ROUNDING, Arc, Line, Piece, Point, Turn
+from core.tolerance import LARGEST_COORDINATE
 
 Floats = NDArray[np.float64]
 Points = NDArray[np.complex128]
@@ -56,7 +57,8 @@ class Path:
         """
         points, turns = np.ascontiguousarray(points, np.float64).reshape(-1, 2), np.ascontiguousarray(turns, np.int8)
         numbers = np.arange(1.0, len(turns) + 1.0) if numbers is None else np.ascontiguousarray(numbers, np.float64)
-        return Path(points, np.where(turns[:, None] == 0, points[:-1], centers), turns, numbers)
+        given = np.asarray(centers, np.float64).reshape(-1, 2)
+        return Path(points, np.where(turns[:, None] == 0, points[:-1], given), turns, numbers)
 
     @staticmethod
     def from_pieces(pieces: Sequence[Piece], numbers: Sequence[float] | None = None) -> Path:
@@ -94,6 +96,11 @@ class Path:
 
     def __iter__(self) -> Iterator[Piece]:
         return (self[index] for index in range(len(self)))
+
+    @property
+    def reachable(self) -> bool:
+        """True if a machine could have all coordinates; NaN is none of these."""
+        return all(bool((np.abs(array) <= LARGEST_COORDINATE).all()) for array in (self.points, self.centers))
 
     @property
     def starts(self) -> Floats:

@@ -9,7 +9,6 @@ from typing import Final
 
 import numpy as np
 
-from core.comp.compensated import CenterPath
 from core.finding import Finding, Severity
 from core.output.grid import Grid, feed_text
 from core.output.passes import Job, rough_runs
@@ -113,7 +112,8 @@ def _paths(job: Job, grid: Grid) -> Iterator[_Check]:
     unroughed = job.finisher is not None and not any(len(run.path) for run in rough_runs(job))
     text = "The roughing tool has no path, so the finish tool would cut solid."
     yield unroughed, "NO_ROUGH_PATH", text, "finish_tool"
-    wild = not all(_reachable(run) for run in (*job.finish, *job.rough))
+    parts = (part for run in (*job.finish, *job.rough) for part in (run.lead_in, run.path, run.lead_out))
+    wild = not all(part.reachable for part in parts)
     yield wild, "COORDINATE", "A point of the path is beyond any machine's travel.", None
     no_plunge_feed = _no_feed(job.plunge_feed, grid)
     yield no_plunge_feed, "PLUNGE_FEED", "PLUNGE FEED must be above 0.", "plunge_feed"
@@ -122,12 +122,6 @@ def _paths(job: Job, grid: Grid) -> Iterator[_Check]:
     text = f"There is no FEED above 0 on {'segment' if len(unfed) == 1 else 'segments'} {listed}."
     # a blank FEED is PLUNGE FEED, so the missing one is named first
     yield bool(unfed) and not no_plunge_feed, "FEED", text, "feed"
-
-
-def _reachable(run: CenterPath) -> bool:
-    arrays = [array for part in (run.lead_in, run.path, run.lead_out) for array in (part.points, part.centers)]
-    # a comparison with NaN is false
-    return all(bool((np.abs(array) <= LARGEST_COORDINATE).all()) for array in arrays)
 
 
 def _no_feed(feed: float, grid: Grid) -> bool:

@@ -72,7 +72,8 @@ def judge_prepared(
         for pieces, known in ((surface.walls, surface.path.numbers), (moves, numbers)):
             worst = int(pieces.slack.argmax()) if len(pieces) else 0
             if len(pieces) and not pieces.slack[worst] <= arc_tolerance:
-                return _unjudged(radius, _uneven(pieces, worst, known, on_surface=pieces is surface.walls))
+                number, slack = float(known[pieces.rows[worst]]), float(pieces.slack[worst])
+                return _unjudged(radius, UnevenArc(number, slack, on_surface=pieces is surface.walls))
         try:
             return _judged(surface, radius, moves, numbers)
         except NotMeasurableError:
@@ -81,10 +82,6 @@ def judge_prepared(
 
 def _unjudged(radius: float, arc: UnevenArc | None = None) -> Verdict:
     return Verdict(radius, None, (), (), float("nan"), crosses_itself=False, judged=False, uneven_arc=arc)
-
-
-def _uneven(pieces: PieceArrays, row: int, numbers: Floats, *, on_surface: bool) -> UnevenArc:
-    return UnevenArc(float(numbers[pieces.rows[row]]), float(pieces.slack[row]), on_surface)
 
 
 def _judged(surface: Surface, radius: float, moves: PieceArrays, numbers: Floats) -> Verdict:

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from math import isfinite, tau, ulp
+from math import tau, ulp
 from typing import Final
 
 import numpy as np
@@ -56,11 +56,7 @@ class NotMeasurableError(ArithmeticError):
 
 def measurable(radius: float, *paths: Path) -> bool:
     """True if all coordinates and the radius are lengths that a machine could have."""
-    arrays = [array.ravel() for path in paths for array in (path.points, path.centers)]
-    numbers = np.concatenate((np.zeros(0), *arrays))
-    # one NaN makes the largest value NaN, and then the comparison is false
-    sound = bool(np.abs(numbers).max(initial=0.0) <= LARGEST_COORDINATE)
-    return sound and isfinite(radius) and 0.0 <= radius <= LARGEST_COORDINATE
+    return 0.0 <= radius <= LARGEST_COORDINATE and all(path.reachable for path in paths)
 
 
 def pairs_of(pieces: PieceArrays, others: PieceArrays, rounding: float, rows: Rows | None = None) -> Pairs:

@@ -11,7 +11,7 @@ from typing import Final
 import numpy as np
 
 from core.geometry.path import Path, Rows
-from core.tolerance import GOUGE, LARGEST_COORDINATE, ON_PATH
+from core.tolerance import GOUGE, ON_PATH
 
 SWEEP_DECIMALS: Final = 3
 """Decimals of a radian to which sweeps are compared: between equal ends an arc is a full circle or empty."""
@@ -36,9 +36,7 @@ def without_repeats(path: Path) -> Path:
     because the sums of incremental programs differ in the last digit.  One that differs in a single piece stays.  The
     path itself is returned if nothing is repeated, or if it has coordinates that no machine could have.
     """
-    if len(path) < 2 or not all(
-        bool(np.abs(array).max() <= LARGEST_COORDINATE) for array in (path.points, path.centers)
-    ):
+    if len(path) < 2 or not path.reachable:
         return path
     names, rows = _piece_names(path), np.arange(len(path))
     before = len(rows) + 1
