@@ -32,7 +32,8 @@ def screen_parser() -> argparse.ArgumentParser:
     parser.add_argument(
         "file", nargs="?", type=Path, metavar="FILE", help="a program (TOML), an NC program to prove, a drawing (DXF)"
     )
-    parser.add_argument("--example", nargs="?", const="pocket", choices=example_names(), help="open an example part")
+    names = sorted(path.stem for path in examples().glob("*.toml"))
+    parser.add_argument("--example", nargs="?", const="pocket", choices=names, help="open an example part")
     parser.add_argument(
         "--characters",
         choices=("braille", "block", "ascii"),
@@ -65,8 +66,3 @@ def command_parser(name: str) -> argparse.ArgumentParser:
             "--control", metavar="NAME[:VARIANT]", help="as that control's own G41, G42, RL or RR program"
         )
     return parser
-
-
-def example_names() -> tuple[str, ...]:
-    """Return the names of the example parts that ship with the program."""
-    return tuple(sorted(path.stem for path in examples().glob("*.toml")))

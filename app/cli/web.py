@@ -23,7 +23,6 @@ MISSING_PACKAGE_TEXT: Final = (
 )
 NO_LOGIN: Final = "There is no login: whoever has the address works as you, on your files."
 
-
 FOCUS_SCRIPT: Final = """<script>
 const look = setInterval(() => {
   const typed = document.querySelector("textarea");
@@ -32,7 +31,6 @@ const look = setInterval(() => {
 }, 100);
 </script>"""
 """Focuses the terminal in the page, which does not take keys by itself until a click or Tab."""
-
 
 ELSEWHERE: Final = re.compile(r"<link[^>]*https?://fonts\.[^>]*>")
 """A link to a font on another machine: without the internet the page would wait for it."""

@@ -51,7 +51,6 @@ WIDTH_CLASSES: Final = [(0, "-narrow"), (80, "-native"), (100, "-medium"), (132,
 HEIGHT_CLASSES: Final = [(0, "-short"), (28, "-tall")]
 """The style class of a screen from each number of columns, or of lines, upward."""
 
-
 NO_LIST_KEYS: Final = (("^K", "ALL ACTIONS"), ("?", "KEYS, HELP"))
 """The keys under the softkeys of a screen that is not of a block."""
 

@@ -79,7 +79,6 @@ KINDS_PROMPT: Final = "L LINE, A ARC, B BLEND ARC, C CHAMFER"
 LATER_PROMPT: Final = "Or Page Down: the next segment may give it."
 CLOSED_PROMPT: Final = "The contour is closed. F8 leaves it; right arrow adds a segment."
 
-
 DEPTH_FIELDS: Final = frozenset({"z_start", "z_bottom"})
 """The fields of START between which the cut lies."""
 SWITCHED_FIELDS: Final = frozenset({"choice", "tangent"})
@@ -89,7 +88,6 @@ NEAR_CELLS: Final = 1.5
 """Columns within which a click picks the number of a finding."""
 PANELS: Final = ("segments", "findings")
 """The lists that replace the drawing when the terminal has no room for both."""
-
 
 LIST_PROMPTS: Final = {
     "segments": "Up and down choose a segment. Enter edits it, Del deletes it, Ins inserts one before it. F9",

@@ -88,7 +88,6 @@ STAGE_NAMES: Final = {
 }
 """The stages of a worker's progress, as the operator reads them."""
 
-
 _layer_of: Final = lru_cache(1)(background)
 """Return all contours of a list as one layer, cached; the thread that draws it first makes it."""
 

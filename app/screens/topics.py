@@ -88,7 +88,6 @@ _LINE_AND_ARC: Final = {
 }
 """The topics of fields that a LINE and an ARC share."""
 
-
 TOPICS: Final[Mapping[tuple[Form, str], Topic]] = MappingProxyType(
     {
         (Form.START, "tool"): Topic(

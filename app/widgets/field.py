@@ -25,7 +25,6 @@ from app.widgets.plain import PlainLabel, PlainText
 MAX_TYPED: int = 200
 """The most characters that a field takes; more come from a stuck key."""
 
-
 NUMBER_SIGNS: Final = "+-./"
 """The signs of a number, which is no choice."""
 LISTED_FIELDS: frozenset[str] = frozenset({"tool", "finish_tool", "lookahead"})

@@ -17,7 +17,6 @@ from app.widgets.plain import PlainText
 LONGEST_LINE = 14
 """The most characters of a label on one line; a longer label breaks after its first word."""
 
-
 LEGEND = (
     ("━━", "$c-part", "part"),
     ("──", "$c-path", "tool center"),
@@ -70,18 +69,14 @@ class SoftkeyLabel(PlainText):
 def _label(number: int, key: Softkey | None, acts: bool) -> Text:
     cap = (f" F{number} ", "reverse bold" if acts else "dim")
     if key is None:
-        return Text.assemble((f" F{number} ", "dim"))
-    lines = _lines(key.label)
-    return Text.assemble(cap, " ", ("\n     ".join(lines), "" if acts else "dim"))
+        return Text.assemble(cap)
+    label = key.label if len(key.label) <= LONGEST_LINE else key.label.replace(" ", "\n     ", 1)
+    return Text.assemble(cap, " ", (label, "" if acts else "dim"))
 
 
 def _short_label(number: int, key: Softkey | None, acts: bool) -> Text:
     cap = (f"F{number}", "reverse bold" if acts else "dim")
     return Text.assemble(cap, " ", ("" if key is None else key.short, "" if acts else "dim"))
-
-
-def _lines(label: str) -> list[str]:
-    return [label] if len(label) <= LONGEST_LINE else label.split(" ", 1)
 
 
 class Softkeys(Vertical):
