@@ -69,10 +69,17 @@ def _joins_by_arcs(path: Path, rows: RowRange) -> bool:
     return _blends(path, range(first - 1, first + 1)) and _blends(path, range(last, last - 2, -1))
 
 
-def _links_passes(path: Path, rows: RowRange) -> bool:
-    """True if arcs of at most half a turn lead out and back in between two passes longer than these rows."""
+def _links_passes(path: Path, begin: int, rows: RowRange) -> bool:
+    """True if arcs of at most half a turn lead out and back in between two passes longer than these rows.
+
+    Before the arc out, the rows may run along the first pass again, which begins at row `begin`.
+    """
     first, last = rows
-    if not _joins_by_arcs(path, rows) or max(np.abs(path.sweeps[[first, last - 1]])) > pi + MAX_TANGENT_ANGLE:
+    while first < last and _runs_along(path, first, begin + first - rows[0]):
+        first += 1
+    if first == last or not _joins_by_arcs(path, (first, last)):
+        return False
+    if np.abs(path.sweeps[[first, last - 1]]).max() > pi + MAX_TANGENT_ANGLE:
         return False
     return bool(path.lengths[first:last].sum() < min(path.lengths[:first].sum(), path.lengths[last:].sum()))
 
@@ -96,7 +103,7 @@ def _passes_between_leads(path: Path, contour: RowRange) -> tuple[RowRange, ...]
 
     The leads may also be a run of their own from that point: an arc out of a pass, and an arc into the next one.
     """
-    passes = tuple(rows for rows in closed_passes(path, contour) if not _links_passes(path, rows))
+    passes = tuple(rows for rows in closed_passes(path, contour) if not _links_passes(path, contour[0], rows))
     return passes if len(passes) > 1 and all(end < begin for (_, end), (begin, _) in pairwise(passes)) else ()
 
 

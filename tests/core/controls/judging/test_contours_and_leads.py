@@ -153,6 +153,10 @@ GOOD = {
     "off a corner and back": ("-40. Y-40.", f"G41 D1 X-15. Y-15.\nX0. Y0.\n{LAP}X-15. Y-15.\nG40 X-40. Y-40."),
     "two laps": ("-30. Y20.", f"{ARC_IN}X0.\n{LAP}Y25.\nG3 X-10. Y35. R10.\nG1 {OUT}"),
     "two laps from beyond the corner": ("-30. Y-30.", f"G41 D1 X0. Y-20.\n{LAP}Y50.\nX80.\nY0.\nX-20.\n{OUT} Y-30."),
+    "an overlap and arcs between two passes": (
+        "-30. Y20.",
+        f"{ARC_IN}X0.\n{LINK.replace('Y20', 'Y24', 1).replace('Y32', 'Y36')}{LAP}Y24.\nG3 X-10. Y34. R10.\nG1 {OUT}",
+    ),
     "arcs out and in between two passes": ("-30. Y20.", f"{ARC_IN}X0.\n{LINK}{LAP}Y20.\nG3 X-10. Y30. R10.\nG1 {OUT}"),
 }
 """The start and the blocks of programs that do not gouge an 80 by 50 plate."""
