@@ -10,6 +10,7 @@ import re
 from bisect import bisect_right
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
+from math import inf
 from typing import Final, NamedTuple, NoReturn
 
 from core.controls.control_run import NOT_RUN_TEXT, Log
@@ -143,6 +144,7 @@ class MacroFlow(Flow):
         self.no_point: list[tuple[str, int, int]] = []
         self.rows_run_again = 0
         self.rows_without_movement = 0
+        self.closest: dict[tuple[int, int], float] = {}
         self.tape_length = 0
         kept, self.line_before, self.unread_line = _between_percents(lines)
         self._append(kept, 1)
@@ -292,6 +294,11 @@ class MacroFlow(Flow):
         call = self.calls[-1]
         for index, difference in enumerate(differences):
             condition = (row, index)
+            if difference < self.closest.get(condition, inf):
+                # an exit in a subprogram also ends the loops of its callers
+                self.closest[condition] = difference
+                for caller in self.calls[:-1]:
+                    caller.rows_without_progress = 0
             least = call.least_differences.get(condition)
             if least is not None and difference < least:
                 # conditions evaluated since the last time this one was are inside its loop

@@ -582,6 +582,7 @@ def test_an_endless_loop_with_movement_is_stopped_when_no_condition_gets_closer_
         ("WHILE[#101LT3]DO1\n#101=#101+1\n#1=800\nWHILE[#1GT0]DO2\n#1=#1-1\n#100=#100+1\nEND2\nEND1\nM30", 2_400),
         ("M98 P2 L900\nM30\nO2\n#100=#100+1\nG4 P1\nM99", 900),
         ("WHILE[#100LT8000]DO1\n#100=#100+1\nG1 X#100 F10.\nEND1\nM30", 8_000),
+        ("N1 M98 P2\nGOTO1\nN3 M30\nO2\n#100=#100+1\nIF[#100GE900]GOTO4\nM99\nN4 M99 P3", 900),
     ],
 )
 def test_a_long_loop_that_gets_closer_to_its_end_runs(loop: str, rounds: int) -> None:
