@@ -19,7 +19,8 @@ Where a maker's manual says nothing, cutcomp makes a choice and reports it in a 
 * threeblock takes corners under 0.05 degrees as tangent, and T with tool data as a call of that tool;
 * inside an arc that is not larger than the tool, threeblock runs about the same center beyond it: a gouge, reported;
 * Fanuc and Haas: the findings FN-PARAM, FN-G1, FN-G2 and FN-N2-ARC say which rules are stated and which are assumed;
-  loops are given up after 100,000 rows without movement or 200,000 rows run again;
+  loops are given up after 100,000 rows without movement, 20,000 without progress of their conditions, or 1,000,000 rows
+  run again;
 * compensation left on at the end of a threeblock program is reported as an error and stops nothing;
 * the orientation of a lathe tool shifts moves on LinuxCNC; on RosettaCNC they stay those of the nose's center;
 * on the 9/Series G80 ends a cycle and keeps the motion mode before it; on threeblock it leaves no motion mode;
