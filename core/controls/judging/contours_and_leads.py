@@ -345,7 +345,28 @@ def _between_leads(path: Path, sums: Floats, point_ids: list[int], rows: RowRang
         way_in, around, way_out = np.diff(sums[1, [rows[0], begin, end, rows[1]]]).tolist()
         short = count == 1 or way_in + way_out < around
         return (begin, end) if arcs and tangent and short else rows
-    return rows
+    return _between_arcs(path, sums, point_ids, rows) or rows
+
+
+def _between_arcs(path: Path, sums: Floats, point_ids: list[int], rows: RowRange) -> RowRange | None:
+    """Return the closed run inside a closed one that goes back to the beginning of its lead-in behind its lead-out.
+
+    The leads are as in `_between_leads`, but not as many moves before as behind.
+    """
+    for begin in range(rows[0] + 1, min(rows[0] + MAX_LEAD_MOVES, rows[1]) + 1):
+        for end in range(rows[1] - 1, begin, -1):
+            if point_ids[begin] != point_ids[end] or not _encloses(sums, (begin, end)):
+                continue
+            out = _end_of_overlap(path, (begin, end))
+            if not out < rows[1] <= out + MAX_LEAD_MOVES:
+                continue
+            arcs = [begin - 1, out]
+            quarters = path.turns[arcs].all() and np.abs(path.sweeps[arcs]).max() <= pi / 2 + MAX_TANGENT_ANGLE
+            tangent = _blends(path, range(begin, begin - 2, -1)) and _blends(path, range(out - 1, out + 1))
+            way_in, around, _, way_out = np.diff(sums[1, [rows[0], begin, end, out, rows[1]]]).tolist()
+            if quarters and tangent and way_in + way_out < around:
+                return begin, end
+    return None
 
 
 def _leads_off(path: Path, begin: int, end: int) -> bool:

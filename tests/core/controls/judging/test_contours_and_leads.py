@@ -139,6 +139,7 @@ def test_contours_that_close_or_are_retraced_in_reverse_are_not_split() -> None:
 
 FRAME = "G21 G17 G40 G90 F400\nT1 M6\nG0 X{start}\nG1 Z-3.\n{cut}\nM30\n"
 ARC_IN = "G41 D1 G1 X-10. Y10.\nG3 X0. Y20. R10.\nG1 Y50.\nX80.\nY0.\n"
+LARGE_ARC_IN = ARC_IN.replace("X-10. Y10.", "X-12. Y8.").replace("R10.", "R12.")
 LAP = "Y50.\nX80.\nY0.\nX0.\n"
 OUT = "G40 X-30."
 LINK = "Y20.\nG3 X-12. Y32. R12.\nG1 Y8.\nG3 X0. Y20. R12.\nG1 "
@@ -153,6 +154,8 @@ GOOD = {
     "off a corner and back": ("-40. Y-40.", f"G41 D1 X-15. Y-15.\nX0. Y0.\n{LAP}X-15. Y-15.\nG40 X-40. Y-40."),
     "two laps": ("-30. Y20.", f"{ARC_IN}X0.\n{LAP}Y25.\nG3 X-10. Y35. R10.\nG1 {OUT}"),
     "two laps from beyond the corner": ("-30. Y-30.", f"G41 D1 X0. Y-20.\n{LAP}Y50.\nX80.\nY0.\nX-20.\n{OUT} Y-30."),
+    "back to the start of the lead-in": ("-30. Y8.", f"{LARGE_ARC_IN}X0.\nY20.\nG3 X-12. Y32. R12.\nG1 Y8.\n{OUT}"),
+    "an overlap, and back to the start": ("-30. Y8.", f"{LARGE_ARC_IN}X0.\nY24.\nG3 X-12. Y36. R12.\nG1 Y8.\n{OUT}"),
     "an overlap and arcs between two passes": (
         "-30. Y20.",
         f"{ARC_IN}X0.\n{LINK.replace('Y20', 'Y24', 1).replace('Y32', 'Y36')}{LAP}Y24.\nG3 X-10. Y34. R10.\nG1 {OUT}",
@@ -179,6 +182,12 @@ def test_arcs_between_two_passes_that_lead_into_the_part_gouge_it() -> None:
     start, cut = GOOD["arcs out and in between two passes"]
     link = "Y20.\nG2 X12. Y32. R12.\nG1 Y8.\nG2 X0. Y20. R12.\nG1 "
     assert errors(FRAME.format(start=start, cut=cut.replace(LINK, link)), "fanuc:a", t1=10.0)
+
+
+def test_a_way_back_to_the_lead_in_through_the_part_gouges_it() -> None:
+    start, cut = GOOD["back to the start of the lead-in"]
+    through = cut.replace("G3 X-12. Y32. R12.", "G2 X12. Y32. R12.").replace("G1 Y8.", "G1 X-12. Y8.")
+    assert errors(FRAME.format(start=start, cut=through), "fanuc:a", t1=10.0)
 
 
 ROUND = {
