@@ -163,7 +163,7 @@ def taken_over(path: Path, owner: Owner, copy: Path) -> Ask:
     lines = (f"{person(owner)} has taken {printable(path.name)} over.",)
     answers = (
         Answer(KEEP_BOTH, f"yours is saved as {whole_name(copy)}"),
-        Answer(WRITE_ANYWAY, "under this name; the other one is told"),
+        Answer(WRITE_ANYWAY, "under this name; the other terminal is warned"),
     )
     return Ask("TAKEN OVER: SAVE ANYWAY?", lines, answers, safe=KEEP_BOTH)
 
@@ -196,7 +196,7 @@ def open_already(owner: Owner, today: str) -> Ask:
     lines = (held_sentence(owner, today),)
     answers = (
         Answer(LOOK, "nothing can be changed; SAVE AS makes a copy of your own"),
-        Answer(TAKE_OVER, "the other one is told before saving"),
+        Answer(TAKE_OVER, "the other terminal is warned before it saves"),
     )
     return Ask("OPEN ALREADY", lines, answers, safe=LOOK)
 
@@ -213,11 +213,11 @@ def unsaved_work(
     if path is not None and document.file.stamp is None and os.path.lexists(path):
         lines.append(f"{printable(path.name)} itself cannot be read; it stays as it is.")
     elif path is not None and document.kind is Kind.NC and document.file.stamp is None:
-        lines.append("The file itself is gone: saving makes it anew.")
+        lines.append("The file is gone. Saving writes it again.")
     elif _written_since(document, journal):
         lines.append("The file was written since: by somebody else, or by this program just before its end.")
     if living and owner != me:
-        lines.append("The other terminal may still be in use: who sits there can go on typing, and is told at saving.")
+        lines.append("The other terminal may still be in use. It is warned before it saves.")
     if not mine:
         lines.append(f"It stays kept for {printable(owner.user)}, whatever you answer.")
     if journal.damaged:

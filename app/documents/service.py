@@ -150,7 +150,7 @@ class DocumentService:
         """Open an example; SAVE cannot overwrite it, since it has no file until SAVE AS gives it a name."""
         document = ContourDocument.of(load(example(name)), title=name)
         self._open[document.file.opening] = _Kept(document)
-        return Opened(document, Notice(f"Example {name}: SAVE gives it a name."))
+        return Opened(document, Notice(f"Example {name}. Ctrl+S saves it under a name."))
 
     def open(self, path: Path, *, kept_copy: Path | None = None) -> Opened[Any] | Trouble:
         """Open a file of either kind; a contour program that does not exist yet begins empty.

@@ -185,7 +185,7 @@ async def test_save_as_asks_before_replacing_a_file(folder):
 
 async def test_a_message_about_a_program_disappears_with_the_next_one(folder):
     async with at_work(folder) as user:
-        user.app.say("Example pocket: SAVE gives it a name.")
+        user.app.say("Example pocket. Ctrl+S saves it under a name.")
         await user.press("ctrl+o", "f2")
         assert user.session.file is None
         assert user.prompt == "Tool number. Space lists the tools."
