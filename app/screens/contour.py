@@ -530,7 +530,9 @@ class ContourScreen(FormScreen):
         """Return a list's keys, the prompt of SEGMENT, an empty LINE's other kinds, or the field's prompt."""
         if self.focused is not None and self.focused.id in LIST_PROMPTS:
             grows = self.focused.id == "findings" and self.is_small and not self.has_class("-full")
-            return Sentence(f"{LIST_PROMPTS[self.focused.id]} {'makes it taller' if grows else 'closes'}.")
+            empty = self.focused.id == "findings" and not self.entries
+            keys = "There are no findings in this block. F10" if empty else LIST_PROMPTS[self.focused.id]
+            return Sentence(f"{keys} {'makes it taller' if grows else 'closes'}.")
         segment, field = self.current_session.segment, self.current_field
         if isinstance(segment, LineSegment) and is_empty(segment) and field is not None and field.name == "x_end":
             widget = self.current

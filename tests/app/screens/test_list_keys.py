@@ -89,6 +89,12 @@ async def test_f10_on_post_leads_to_what_must_be_corrected():
         assert isinstance(user.screen, ContourScreen)
 
 
+async def test_a_list_without_findings_says_so_and_how_it_closes():
+    async with operator("flange") as user:
+        await user.press("f10", "f10")
+        assert user.prompt == "There are no findings in this block. F10 closes."
+
+
 async def test_f10_again_gives_the_findings_the_whole_height_and_closes_them_then():
     async with operator() as user:
         await user.press("f10")
