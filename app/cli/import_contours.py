@@ -72,7 +72,7 @@ def _refuse_unused(options: argparse.Namespace) -> None:
 def _remedy(error: DrawingError, options: argparse.Namespace) -> str:
     """Return the option that would get the drawing accepted; empty if none would."""
     if error.code == "NOT_FLAT":
-        return " Name the layers to take with --layer."
+        return " Delete it from the drawing, or name the layers to take with --layer."
     if error.code == "NOT_DXF":
         return " For an NC program add --control NAME."
     return " Take it all the same with --damaged." if error.readable and not options.damaged else ""

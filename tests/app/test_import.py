@@ -91,6 +91,16 @@ def test_one_of_several_contours_must_be_chosen(tmp_path: Path, capsys: pytest.C
     assert main(["import", source, "--layer", "NONE", "-o", str(out)]) == 2
 
 
+def test_a_line_that_is_not_flat_is_deleted_or_left_out_by_its_layer(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    source, ends = tmp_path / "slope.dxf", "10\n0\n20\n0\n30\n0\n11\n1\n21\n0\n31\n9\n"
+    source.write_text(f"0\nSECTION\n2\nENTITIES\n0\nLINE\n8\n0\n{ends}0\nENDSEC\n0\nEOF\n", encoding="ascii")
+    assert main(["import", str(source), "--list", "--units", "mm"]) == 2
+    remedy = "does not lie in the XY plane. Delete it from the drawing, or name the layers to take with --layer."
+    assert remedy in capsys.readouterr().err
+
+
 def test_a_drawing_without_a_unit_needs_the_units_option(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
     source, out = str(DATA / "d04-nounits.dxf"), tmp_path / "part.toml"
     assert main(["import", source, "-o", str(out)]) == 2
