@@ -51,8 +51,6 @@ CODE_GROUPS: Final = (
 )
 """Codes in addition to those that all word-address controls share."""
 
-CODES: Final = codes(*CODE_GROUPS)
-
 RULE_NAMES: Final[Mapping[str, str]] = {
     "CODE": "PS0010",
     "WORD": "PS0009",
@@ -74,7 +72,7 @@ RULE_NAMES: Final[Mapping[str, str]] = {
 """Fanuc's alarm for each rule that all word-address controls share, by the rule's id."""
 
 DIALECT: Final = Dialect(
-    CODES,
+    codes(*CODE_GROUPS),
     Unit.MM,
     syntax=Syntax(semicolon_ends=True, blanks=False, last_counts=True),
     percent_ends=True,
