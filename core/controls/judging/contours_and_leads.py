@@ -72,10 +72,10 @@ def _joins_by_arcs(path: Path, rows: RowRange) -> bool:
 def _links_passes(path: Path, begin: int, rows: RowRange) -> bool:
     """True if arcs of at most half a turn lead out and back in between two passes longer than these rows.
 
-    Before the arc out, the rows may run along the first pass again, which begins at row `begin`.
+    Before the arc out, a few of the rows may run along the first pass again, which begins at row `begin`.
     """
     first, last = rows
-    while first < last and _runs_along(path, first, begin + first - rows[0]):
+    while first < min(last, rows[0] + MAX_LEAD_MOVES) and _runs_along(path, first, begin + first - rows[0]):
         first += 1
     if first == last or not _joins_by_arcs(path, (first, last)):
         return False
