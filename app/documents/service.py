@@ -42,9 +42,9 @@ from app.documents.left_overs import (
 )
 from app.documents.lock import Lock, Owner, alive, held_by, myself, release, take, take_over, taken_by
 from app.documents.paths import as_program, chosen, folder, is_folder, outside, printable_path, short_path, written_at
-from app.documents.patience import FILE_SECONDS, within
 from app.documents.programs import empty_program, example, examples
 from app.documents.questions import GO_BACK, Ask, held_sentence, name_of, person, whole_name
+from app.documents.time_limits import FILE_SECONDS, within
 from core.program.file.read import StoreError
 from core.program.model import unread_texts
 from core.units import Unit, printable

@@ -17,8 +17,8 @@ from app.documents.left_overs import KeptCopy, kept_copies, left_by_dead, left_o
 from app.documents.lock import alive, user
 from app.documents.nc_text import NC_SUFFIXES
 from app.documents.paths import is_drawing
-from app.documents.patience import FILE_SECONDS, FOLDER_SECONDS, within
 from app.documents.programs import examples, is_program
+from app.documents.time_limits import FILE_SECONDS, FOLDER_SECONDS, within
 from core.finding import Severity
 from core.pipeline.derived import Derived, DerivedBlock
 from core.program.file.read import StoreError

@@ -14,7 +14,7 @@ from textual.app import ComposeResult
 from textual.containers import Horizontal
 from textual.widgets import Label, ProgressBar
 
-from app.documents.patience import within
+from app.documents.time_limits import within
 from app.session.messages import Sentence, Tone
 from app.session.session import Session
 from app.session.work import Work

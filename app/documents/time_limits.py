@@ -1,4 +1,4 @@
-"""This module waits for files: a folder on a lost network may take forever to answer."""
+"""This module limits the time of work on files: a folder on a lost network may take forever to answer."""
 
 from __future__ import annotations
 

@@ -8,7 +8,7 @@ from threading import Event
 
 import pytest
 
-from app.documents.patience import Disk, within
+from app.documents.time_limits import Disk, within
 
 
 @pytest.fixture
