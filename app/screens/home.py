@@ -16,8 +16,17 @@ from textual.content import Content
 from textual.widgets import DataTable, Static
 
 from app.documents.files import load, why
+from app.documents.folder_list import (
+    DRAWING,
+    NC_PROGRAM,
+    Facts,
+    Listed,
+    day_of,
+    example_programs,
+    facts_of,
+    programs_of,
+)
 from app.documents.paths import short_path
-from app.documents.survey import DRAWING, NC_PROGRAM, Facts, Listed, day_of, example_programs, facts_of, programs_of
 from app.screens.base import NO_LIST_KEYS, BaseScreen
 from app.session.messages import Sentence, Tone
 from app.session.words import counted, length

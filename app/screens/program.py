@@ -12,7 +12,7 @@ from textual.containers import Horizontal, Vertical
 from textual.content import Content
 from textual.widgets import DataTable, Label, OptionList
 
-from app.documents.survey import outcome_of
+from app.documents.folder_list import outcome_of
 from app.screens.base import BaseScreen
 from app.session.block_findings import block_findings
 from app.session.derivation import times_in_words

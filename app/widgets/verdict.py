@@ -18,7 +18,7 @@ from textual.content import Content
 from textual.reactive import reactive
 from textual.widgets import Static
 
-from app.documents.survey import Outcome
+from app.documents.folder_list import Outcome
 from app.session.block_findings import GOUGE_CODES, TO_TYPE, WAITING_CODES
 from app.session.posting import deleted_numbers, deleted_segments
 from app.session.words import length, segment_numbers, shortened

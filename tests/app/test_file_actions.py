@@ -13,11 +13,11 @@ from textual.widgets import Static
 from app.app import CutcompApp
 from app.documents import times
 from app.documents.files import load
+from app.documents.folder_list import Facts
 from app.documents.lock import myself
 from app.documents.programs import example
 from app.documents.service import DocumentService, Opened
 from app.documents.settings import Settings, SettingsFile, load_settings
-from app.documents.survey import Facts
 from app.file_actions import session_of
 from app.nc_proof.screen import ProofScreen
 from app.screens.dialogs import Question

@@ -9,19 +9,19 @@ from threading import Event
 
 import pytest
 
-from app.documents import survey
+from app.documents import folder_list
 from app.documents.files import load
+from app.documents.folder_list import Outcome, facts_of, programs_of
 from app.documents.journal_file import JOURNAL_SUFFIX, journal_path
 from app.documents.programs import examples
-from app.documents.survey import Outcome, facts_of, programs_of
 from app.session.posting import setup_sheet
 from tests.app.documents.typist import ELSEWHERE, started
 
 
 @pytest.fixture(autouse=True)
 def person(state: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(survey, "state_folder", lambda: state)
-    monkeypatch.setattr(survey, "user", lambda: "ann")
+    monkeypatch.setattr(folder_list, "state_folder", lambda: state)
+    monkeypatch.setattr(folder_list, "user", lambda: "ann")
 
 
 def names(folder: Path) -> list[str]:
@@ -80,7 +80,7 @@ def test_a_never_saved_program_being_typed_counts_as_open(state: Path, part: Pat
 
 def test_a_hanging_file_does_not_delay_the_others(part: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     never, real = Event(), Path.stat
-    monkeypatch.setattr(survey, "FILE_SECONDS", 0.05)
+    monkeypatch.setattr(folder_list, "FILE_SECONDS", 0.05)
     monkeypatch.setattr(
         Path, "stat", lambda path, **rest: never.wait(5) if path.name == "a.toml" else real(path, **rest)
     )
