@@ -173,7 +173,7 @@ class Listed:
         return self.copy is None and not (self.folder or self.kind)
 
 
-def programs_of(folder: Path) -> tuple[Listed, ...]:
+def openable_files(folder: Path) -> tuple[Listed, ...]:
     """Return a folder's files that can be opened, examples and kept copies; raise OSError if it cannot be read."""
     entries = within(FOLDER_SECONDS, lambda: tuple(_listed_files(folder)))
     parts = tuple(example_programs())

@@ -24,7 +24,7 @@ from app.documents.folder_list import (
     day_of,
     example_programs,
     facts_of,
-    programs_of,
+    openable_files,
 )
 from app.documents.paths import short_path
 from app.screens.base import NO_LIST_KEYS, BaseScreen
@@ -99,7 +99,7 @@ class HomeScreen(BaseScreen):
     def show_folder(self, folder: Path, *, at: Path | None = None) -> None:
         """List a folder with the cursor on `at`; if it cannot be read, say why and list only the examples."""
         try:
-            self.listed, self.trouble = programs_of(folder), ""
+            self.listed, self.trouble = openable_files(folder), ""
         except OSError as error:
             reason = f"{error}." if isinstance(error, TimeoutError) else why(error)
             self.trouble = f"{short_path(folder)} cannot be shown: {reason}"
@@ -120,7 +120,7 @@ class HomeScreen(BaseScreen):
     def list_anew(self) -> None:
         """Refresh the list, with the cursor on the same file; keep the old list if the folder does not answer."""
         try:
-            same = programs_of(self.folder) == self.listed
+            same = openable_files(self.folder) == self.listed
         except OSError:
             return
         if same:

@@ -11,7 +11,7 @@ import pytest
 
 from app.documents import folder_list
 from app.documents.files import load
-from app.documents.folder_list import Outcome, facts_of, programs_of
+from app.documents.folder_list import Outcome, facts_of, openable_files
 from app.documents.journal_file import JOURNAL_SUFFIX, journal_path
 from app.documents.programs import examples
 from app.session.posting import setup_sheet
@@ -25,7 +25,7 @@ def person(state: Path, monkeypatch: pytest.MonkeyPatch) -> None:
 
 
 def names(folder: Path) -> list[str]:
-    return [program.name for program in programs_of(folder) if not (program.folder or program.example)]
+    return [program.name for program in openable_files(folder) if not (program.folder or program.example)]
 
 
 def test_a_saved_program_shows_its_verdict(part: Path) -> None:
@@ -112,14 +112,16 @@ def test_drawings_and_nc_programs_are_listed_after_the_programs(part: Path) -> N
     (part.parent / "sheet.txt").write_text(setup_sheet(load(part), part.parent / "sheet.txt", datetime.now(UTC)))
     (part.parent / "x.txt").write_text("G0 X0\nM30\n")
     listed = [
-        (program.name, program.kind) for program in programs_of(part.parent) if not (program.folder or program.example)
+        (program.name, program.kind)
+        for program in openable_files(part.parent)
+        if not (program.folder or program.example)
     ]
     others = [("b.dxf", "drawing"), ("a.NC", "NC program"), ("c.tap", "NC program"), ("x.txt", "NC program")]
     assert listed == [(part.stem, ""), *others]
 
 
 def test_each_example_is_listed_once_in_the_examples_folder() -> None:
-    listed = [program for program in programs_of(examples()) if program.program]
+    listed = [program for program in openable_files(examples()) if program.program]
     assert listed
     assert all(program.example for program in listed)
     assert len({program.path for program in listed}) == len(listed)
