@@ -13,12 +13,12 @@ from typing import Final
 from app.documents.document import ContourDocument
 from app.documents.files import load, read_start
 from app.documents.journal import Journal, Kind
-from app.documents.left_overs import KeptCopy, kept_copies, left_by_dead, left_of, never_saved, state_folder
 from app.documents.lock import alive, user
 from app.documents.nc_text import NC_SUFFIXES
 from app.documents.paths import is_drawing
 from app.documents.programs import examples, is_program
 from app.documents.time_limits import FILE_SECONDS, FOLDER_SECONDS, within
+from app.documents.unsaved_work import KeptCopy, kept_copies, left_by_dead, left_of, never_saved, state_folder
 from core.finding import Severity
 from core.pipeline.derived import Derived, DerivedBlock
 from core.program.file.read import StoreError

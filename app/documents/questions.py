@@ -14,9 +14,9 @@ from typing import Final
 from app.documents import times
 from app.documents.document import ContourDocument, Document
 from app.documents.journal import Journal, Kind
-from app.documents.left_overs import UNNAMED_PROGRAM, Unreadable
 from app.documents.lock import Owner
 from app.documents.paths import folder, outside, printable_path
+from app.documents.unsaved_work import UNNAMED_PROGRAM, Unreadable
 from core.units import printable
 
 GO_BACK: Final = "GO BACK"

@@ -27,7 +27,12 @@ from app.documents.files import (
 )
 from app.documents.journal import Head, Journal, Kind, beginning, continuing, records_between, same_edits
 from app.documents.journal_file import JournalFile, journal_path, new_path, set_aside, why_aside
-from app.documents.left_overs import (
+from app.documents.lock import Lock, Owner, alive, held_by, myself, release, take, take_over, taken_by
+from app.documents.paths import as_program, chosen, folder, is_folder, outside, printable_path, short_path, written_at
+from app.documents.programs import empty_program, example, examples
+from app.documents.questions import GO_BACK, Ask, held_sentence, name_of, person, whole_name
+from app.documents.time_limits import FILE_SECONDS, within
+from app.documents.unsaved_work import (
     Unreadable,
     elsewhere,
     journal_place,
@@ -40,11 +45,6 @@ from app.documents.left_overs import (
     unreadable,
     wants_answer,
 )
-from app.documents.lock import Lock, Owner, alive, held_by, myself, release, take, take_over, taken_by
-from app.documents.paths import as_program, chosen, folder, is_folder, outside, printable_path, short_path, written_at
-from app.documents.programs import empty_program, example, examples
-from app.documents.questions import GO_BACK, Ask, held_sentence, name_of, person, whole_name
-from app.documents.time_limits import FILE_SECONDS, within
 from core.program.file.read import StoreError
 from core.program.model import unread_texts
 from core.units import Unit, printable

@@ -13,8 +13,8 @@ from pathlib import Path
 import pytest
 
 from app.documents.files import load
-from app.documents.left_overs import read
 from app.documents.time_limits import EXIT_SECONDS
+from app.documents.unsaved_work import read
 from app.terminal.signals import GRACE_SECONDS
 from core.program.history import History
 from core.program.model import Number

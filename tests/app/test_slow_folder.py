@@ -11,8 +11,8 @@ import pytest
 from app.documents.files import load
 from app.documents.journal import Kind
 from app.documents.journal_file import journal_path
-from app.documents.left_overs import read
 from app.documents.programs import example
+from app.documents.unsaved_work import read
 from app.screens.dialogs import Question
 from app.screens.sheet import SheetScreen
 from core.program.history import History

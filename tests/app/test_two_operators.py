@@ -1,6 +1,6 @@
 """Two operators of one program, through real pseudo-terminals: killed work is offered again to its owner.
 
-What a take-over and an unreadable lock do is tested in `documents/test_left_overs.py` and `documents/test_lock.py`.
+What a take-over and an unreadable lock do is tested in `documents/test_unsaved_work.py` and `documents/test_lock.py`.
 """
 
 from __future__ import annotations

@@ -17,9 +17,9 @@ from typing import Any
 
 from app.documents.document import ContourDocument
 from app.documents.journal_file import journal_path, lines
-from app.documents.left_overs import file_of_copy
 from app.documents.questions import RESTORE
 from app.documents.service import DocumentService, Opened
+from app.documents.unsaved_work import file_of_copy
 from core.pipeline.fields_stage import solve_fields
 from tests.app.documents.typist import DEAD, TIME, started
 from tests.app.nc_lines import inserted

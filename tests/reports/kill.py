@@ -26,7 +26,7 @@ from pathlib import Path
 from typing import Final
 
 from app.documents.journal_file import journal_path
-from app.documents.left_overs import read
+from app.documents.unsaved_work import read
 from tests.reports.kill_parts import NC, ContourPart, NcPart, Part, bytes_of_key
 from tests.terminal import Terminal, cutcomp, running
 

@@ -34,11 +34,11 @@ from app.app import CutcompApp
 from app.documents import programs as files
 from app.documents.document import ContourDocument
 from app.documents.journal import Journal, Kind
-from app.documents.left_overs import left_of
 from app.documents.lock import take
 from app.documents.nc_text import NcText
 from app.documents.service import DocumentService, Opened, Trouble
 from app.documents.settings import Settings, SettingsFile
+from app.documents.unsaved_work import left_of
 from app.file_actions import session_of
 from app.nc_proof.screen import ProofScreen
 from app.screens.base import BaseScreen
