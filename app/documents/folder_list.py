@@ -18,7 +18,14 @@ from app.documents.nc_text import NC_SUFFIXES
 from app.documents.paths import is_drawing
 from app.documents.programs import examples, is_program
 from app.documents.time_limits import FILE_SECONDS, FOLDER_SECONDS, within
-from app.documents.unsaved_work import KeptCopy, kept_copies, left_by_dead, left_of, never_saved, state_folder
+from app.documents.unsaved_work import (
+    KeptCopy,
+    kept_copies,
+    never_saved,
+    state_folder,
+    unsaved_work_on,
+    work_of_dead_processes,
+)
 from core.finding import Severity
 from core.pipeline.derived import Derived, DerivedBlock
 from core.program.file.read import StoreError
@@ -75,7 +82,7 @@ def _read(path: Path, known: Facts | None) -> tuple[Facts, Program | None]:
     except (OSError, ValueError):
         return _without_file(path), None
     stamp = (status.st_mtime_ns, status.st_size)
-    left = [journal for _, journal in left_by_dead(path, Kind.CONTOUR, state_folder(), user())]
+    left = [journal for _, journal in work_of_dead_processes(path, Kind.CONTOUR, state_folder(), user())]
     if known is not None and known.stamp == stamp and not left and known.outcome is not Outcome.NOT_SAVED:
         return known, None
     facts = Facts(path, stamp, datetime.fromtimestamp(status.st_mtime).astimezone())
@@ -93,7 +100,7 @@ def _without_file(path: Path) -> Facts:
     """Return the facts of a program without a file: it was never saved, or the file is gone."""
     gone = Facts(path, outcome=Outcome.UNREADABLE)
     try:
-        left = [journal for _, journal in left_of(path, Kind.CONTOUR, state_folder())]
+        left = [journal for _, journal in unsaved_work_on(path, Kind.CONTOUR, state_folder())]
     except (OSError, ValueError):
         left = []
     journals = [journal for journal in left if isinstance(journal, Journal)]

@@ -36,14 +36,14 @@ from app.documents.unsaved_work import (
     Unreadable,
     elsewhere,
     journal_place,
-    left_by_dead,
-    left_of,
     new_journal,
     of_user,
     read,
     state_folder,
     unreadable,
+    unsaved_work_on,
     wants_answer,
+    work_of_dead_processes,
 )
 from core.program.file.read import StoreError
 from core.program.model import unread_texts
@@ -224,7 +224,7 @@ class DocumentService:
         """
         assert file.path is not None
         wanted = None if kept_copy is None else read(kept_copy, Kind.CONTOUR)
-        left = (journal for _, journal in left_by_dead(file.path, Kind.CONTOUR, self.state, self.me.user))
+        left = (journal for _, journal in work_of_dead_processes(file.path, Kind.CONTOUR, self.state, self.me.user))
         journal = wanted or next(left, None)
         if journal is None:
             raise error
@@ -292,7 +292,7 @@ class DocumentService:
         Work that was answered or is kept for somebody else raises no question; a notice mentions the latter.
         """
         for_others: list[str] = []
-        for path, left in self._left_work(document, kept_copy):
+        for path, left in self._unsaved_work(document, kept_copy):
             if path in answered:
                 continue
             ask = self._question(document, path, left, chosen=path == kept_copy)
@@ -302,11 +302,11 @@ class DocumentService:
                 return Opened(document, notice, Offer(ask, path, left, answered))
         return Opened(document, notice or (Notice(" ".join(for_others), warning=True) if for_others else None))
 
-    def _left_work(self, document: Document, kept_copy: Path | None) -> Iterator[tuple[Path, Journal | Unreadable]]:
+    def _unsaved_work(self, document: Document, kept_copy: Path | None) -> Iterator[tuple[Path, Journal | Unreadable]]:
         """Yield the unsaved work to ask about; a chosen kept copy comes first."""
         if kept_copy is not None and (copy := read(kept_copy, document.kind) or unreadable(kept_copy)) is not None:
             yield kept_copy, copy
-        for path, left in left_of(document.file.path, document.kind, self.state):
+        for path, left in unsaved_work_on(document.file.path, document.kind, self.state):
             if path != kept_copy:
                 yield path, left
 

@@ -86,7 +86,7 @@ class Unreadable:
     owner: Owner | None = None
 
 
-def left_of(file: Path | None, kind: Kind, state: Path) -> Iterator[tuple[Path, Journal | Unreadable]]:
+def unsaved_work_on(file: Path | None, kind: Kind, state: Path) -> Iterator[tuple[Path, Journal | Unreadable]]:
     """Yield the unsaved work on a file, or work without a name, of every user; asides come last, newest first.
 
     Skip what was discarded, and what was set aside from a running process unless that wrote more and has died.
@@ -101,9 +101,9 @@ def left_of(file: Path | None, kind: Kind, state: Path) -> Iterator[tuple[Path, 
             yield path, left
 
 
-def left_by_dead(file: Path, kind: Kind, state: Path, user: str) -> Iterator[tuple[Path, Journal]]:
+def work_of_dead_processes(file: Path, kind: Kind, state: Path, user: str) -> Iterator[tuple[Path, Journal]]:
     """Yield the journals on a file that this user is asked about, left by processes that died."""
-    for path, left in left_of(file, kind, state):
+    for path, left in unsaved_work_on(file, kind, state):
         if isinstance(left, Unreadable) or alive(left.head.owner):
             continue
         if not why_aside(path) or of_user(left.head.owner, path, state, user):

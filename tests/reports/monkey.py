@@ -38,7 +38,7 @@ from app.documents.lock import take
 from app.documents.nc_text import NcText
 from app.documents.service import DocumentService, Opened, Trouble
 from app.documents.settings import Settings, SettingsFile
-from app.documents.unsaved_work import left_of
+from app.documents.unsaved_work import unsaved_work_on
 from app.file_actions import session_of
 from app.nc_proof.screen import ProofScreen
 from app.screens.base import BaseScreen
@@ -226,7 +226,7 @@ class Life:
             if not document.unsaved or document.file.holder is not None:
                 continue
             kind = Kind.CONTOUR if isinstance(document, ContourDocument) else Kind.NC
-            left = left_of(document.file.path, kind, self.service.state)
+            left = unsaved_work_on(document.file.path, kind, self.service.state)
             kept = [journal.work for _, journal in left if isinstance(journal, Journal)]
             if not any(same(work, document) for work in kept):
                 yield f"the journal does not bring back the {'program' if kind is Kind.CONTOUR else 'NC text'}"
