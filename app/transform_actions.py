@@ -9,7 +9,7 @@ from textual import work
 
 from app.file_actions import FileActions
 from app.screens.dialogs import NumberEntry, NumberForm
-from app.session.words import segment_numbers
+from app.session.formats import segment_numbers
 from core.program import transform
 from core.program.edit import Edited, Refused
 from core.units import Kind, to_mm

@@ -15,7 +15,7 @@ from app.cli.shell import STATUS_CLEAN, Unusable, reported, say
 from app.documents.drawing_files import Worker, drawing_bytes
 from app.documents.files import write_text
 from app.documents.programs import empty_program
-from app.session.words import counted, length, place
+from app.session.formats import counted, length, place
 from core.geometry.piece import Side
 from core.importing.contour import Contour, fitted_contour, reversed_contour, started_at
 from core.importing.contours import ContourList, frame_notes

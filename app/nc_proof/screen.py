@@ -39,8 +39,8 @@ from app.nc_proof.runs import (
 )
 from app.screens.base import BaseScreen
 from app.screens.dialogs import ChooseLine, Phrase
+from app.session.formats import counted
 from app.session.messages import Sentence, Tone
-from app.session.words import counted
 from app.session.work import while_wanted
 from app.widgets.drawing import Drawing
 from app.widgets.option_rows import OptionRows, control_rows

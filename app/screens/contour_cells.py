@@ -8,8 +8,8 @@ from types import MappingProxyType
 from typing import Final
 
 from app.screens.values import cell_of
+from app.session.formats import counted, length
 from app.session.session import Session
-from app.session.words import counted, length
 from app.widgets.field import Cell, State
 from core.finding import Finding
 from core.pipeline.derived import DerivedBlock, Tag

@@ -15,9 +15,9 @@ from app.screens.base import BaseScreen
 from app.screens.contour_cells import run_here, run_trouble
 from app.screens.dialogs import NumberEntry, NumberForm
 from app.session.block_findings import Entry, block_findings
+from app.session.formats import length, place
 from app.session.messages import Sentence, Tone
 from app.session.session import Session
-from app.session.words import length, place
 from app.widgets.drawing import LOOK_KEYS, Drawing
 from app.widgets.findings_list import FindingsList, heading
 from app.widgets.plain import PlainLabel

@@ -28,8 +28,8 @@ from app.documents.folder_list import (
 )
 from app.documents.paths import short_path
 from app.screens.base import NO_LIST_KEYS, BaseScreen
+from app.session.formats import counted, length
 from app.session.messages import Sentence, Tone
-from app.session.words import counted, length
 from app.widgets.about import About
 from app.widgets.drawing import Drawable, Drawing
 from app.widgets.option_rows import TypedLetters

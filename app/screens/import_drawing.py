@@ -22,8 +22,8 @@ from app.documents.programs import empty_program
 from app.documents.questions import GO_BACK, Answer
 from app.screens.base import BaseScreen
 from app.screens.dialogs import ChooseSeveral, NumberEntry, NumberForm, Question
+from app.session.formats import length, place
 from app.session.messages import Sentence, Tone
-from app.session.words import length, place
 from app.widgets.contour_table import ContourTable
 from app.widgets.drawing import LOOK_KEYS, Drawing
 from app.widgets.plain import PlainLabel, PlainText

@@ -13,9 +13,9 @@ from textual.content import Content
 from textual.widgets import DataTable, Static
 
 from app.screens.base import BaseScreen
+from app.session.formats import length, segment_numbers
 from app.session.messages import Sentence
 from app.session.session import Session
-from app.session.words import length, segment_numbers
 from app.widgets.drawing import Drawing
 from app.widgets.plain import PlainText
 from app.widgets.row_table import RowTable

@@ -16,11 +16,11 @@ from textual.widgets import Input, OptionList, Static
 from app.screens.base import BaseScreen
 from app.screens.dialogs import Phrase
 from app.screens.entry_screen import EntryScreen
+from app.session.formats import counted
 from app.session.guide import POST_NAME, WHOLE_WAY
 from app.session.messages import Sentence, Tone
 from app.session.posting import CENTER_PATH, OVERRIDE_PHRASES, NcText, choices, nc_text, objections
 from app.session.session import Session
-from app.session.words import counted
 from app.widgets.option_rows import OptionRows, control_rows
 from app.widgets.plain import PlainLabel, PlainText
 from app.widgets.softkeys import Softkey

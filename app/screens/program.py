@@ -16,9 +16,9 @@ from app.documents.folder_list import outcome_of
 from app.screens.base import BaseScreen
 from app.session.block_findings import block_findings
 from app.session.derivation import times_in_words
+from app.session.formats import counted
 from app.session.guide import on_program
 from app.session.session import Session
-from app.session.words import counted
 from app.widgets.about import About
 from app.widgets.drawing import Drawing
 from app.widgets.findings_list import FindingsList

@@ -9,7 +9,7 @@ from dataclasses import dataclass
 from enum import IntEnum
 from typing import TYPE_CHECKING, Final
 
-from app.session.words import length
+from app.session.formats import length
 from core.finding import Finding, Severity
 from core.pipeline.derived import DerivedBlock
 from core.units import Unit, segment_name, sentence

@@ -6,7 +6,7 @@ from collections.abc import Callable, Iterator
 from dataclasses import replace
 from typing import TYPE_CHECKING
 
-from app.session.words import segment_numbers
+from app.session.formats import segment_numbers
 from core.pipeline.derived import Derived, DerivedBlock
 from core.program.model import Program
 from core.progress import Progress, silent

@@ -8,7 +8,7 @@ from datetime import datetime
 from pathlib import Path
 from typing import TYPE_CHECKING, Final
 
-from app.session.words import length, segment_numbers
+from app.session.formats import length, segment_numbers
 from core.finding import Finding, Severity
 from core.pipeline.derived import Derived, DerivedBlock
 from core.program.model import Program

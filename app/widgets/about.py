@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING
 
 from textual.content import Content
 
-from app.session.words import counted, length
+from app.session.formats import counted, length
 from app.widgets.plain import PlainText
 from app.widgets.verdict import MARKS_OF_CHARACTERS, Case, chips
 from core.program.model import Number

@@ -9,7 +9,7 @@ from textual.binding import Binding, BindingType
 from textual.content import Content
 from textual.coordinate import Coordinate
 
-from app.session.words import length
+from app.session.formats import length
 from app.widgets.row_table import RowTable
 from core.importing.contour import Contour, ContourKind
 from core.importing.listing import Row, cells_of

@@ -8,9 +8,9 @@ from rich.text import Text
 from textual.binding import Binding, BindingType
 from textual.reactive import reactive
 
+from app.session.formats import length
 from app.session.posting import deleted_numbers
 from app.session.session import Session
-from app.session.words import length
 from app.widgets.row_table import RowTable
 from app.widgets.verdict import MARKS_OF_CHARACTERS
 from core.pipeline.derived import DerivedBlock

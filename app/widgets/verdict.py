@@ -20,8 +20,8 @@ from textual.widgets import Static
 
 from app.documents.folder_list import Outcome
 from app.session.block_findings import GOUGE_CODES, TO_TYPE, WAITING_CODES
+from app.session.formats import length, segment_numbers, shortened
 from app.session.posting import deleted_numbers, deleted_segments
-from app.session.words import length, segment_numbers, shortened
 from app.widgets.plain import PlainText
 from core.comp.lookahead import MAX_LOOKAHEAD
 from core.finding import Severity

@@ -9,7 +9,7 @@ from textual.widgets import Static
 
 from app.documents.files import load
 from app.documents.programs import empty_program, example
-from app.session.words import segment_numbers
+from app.session.formats import segment_numbers
 from app.widgets.verdict import MARKS_OF_CHARACTERS, Case, Verdict, chips, strip, title
 from core.finding import Finding, Severity
 from core.pipeline.derive import derive, look_ahead_table
