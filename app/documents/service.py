@@ -104,18 +104,18 @@ class Saved(Generic[AnyDocument]):
 
 
 @dataclass(slots=True)
-class _Kept:
-    """One open document as it was last kept, with its journal and its lock.
+class _OpenDocument:
+    """One open document as it was last entry, with its journal and its lock.
 
-    `whole`: the journal must be rewritten from the current work.  `failing`: the last edit is not on disk.  `warned`:
+    `rewrite`: the journal must be rewritten from the current work.  `failing`: the last edit is not on disk.  `warned`:
     the operator knows that somebody has taken the document over.  `away`: the operator knows that the journal is not
     beside its file.  `copy` is the name that questions propose for a copy.
     """
 
-    known: Document
+    latest: Document
     journal: JournalFile | None = None
     lock: Lock | None = None
-    whole: bool = False
+    rewrite: bool = False
     failing: bool = False
     warned: bool = False
     away: bool = False
@@ -132,7 +132,7 @@ class DocumentService:
     me: Owner = field(default_factory=lambda: myself(times.now()))
     state: Path = field(default_factory=state_folder)
     clock: Callable[[], str] = times.now
-    _open: dict[object, _Kept] = field(default_factory=dict)
+    _open: dict[object, _OpenDocument] = field(default_factory=dict)
 
     def _owner_now(self) -> Owner:
         """Return this process as the owner of a file that it opens now."""
@@ -143,13 +143,13 @@ class DocumentService:
     def new(self, unit: Unit = Unit.IN, *, offers: bool = False) -> Opened[ContourDocument]:
         """Begin a program without a name; `offers` asks about unsaved work without a name, as at startup."""
         document = ContourDocument.of(empty_program(unit))
-        self._open[document.file.opening] = _Kept(document)
+        self._open[document.file.opening] = _OpenDocument(document)
         return self._next_offer(document) if offers else Opened(document)
 
     def example(self, name: str) -> Opened[ContourDocument]:
         """Open an example; SAVE cannot overwrite it, since it has no file until SAVE AS gives it a name."""
         document = ContourDocument.of(load(example(name)), title=name)
-        self._open[document.file.opening] = _Kept(document)
+        self._open[document.file.opening] = _OpenDocument(document)
         return Opened(document, Notice(f"Example {name}. Ctrl+S saves it under a name."))
 
     def open(self, path: Path, *, kept_copy: Path | None = None) -> Opened[Any] | Trouble:
@@ -161,8 +161,8 @@ class DocumentService:
             return self.example(path.stem)
         if _real_path(path) is None:
             return Trouble(f"{short_path(path)} cannot be opened: that is not a file name. Choose another.")
-        if (kept := self._open_here(path)) is not None:
-            return Trouble(f"{printable(path.name)} is open already.", kept.known)
+        if (entry := self._open_here(path)) is not None:
+            return Trouble(f"{printable(path.name)} is open already.", entry.latest)
         try:
             document = within(FILE_SECONDS, lambda: self._read(path, kept_copy))
         except TimeoutError as error:
@@ -179,12 +179,12 @@ class DocumentService:
         """Begin a new program and offer the work of a kept copy that has no file name."""
         return self._opened(ContourDocument.of(empty_program()), None, kept_copy)
 
-    def _open_here(self, path: Path) -> _Kept | None:
+    def _open_here(self, path: Path) -> _OpenDocument | None:
         """Return the document that is open here under this or another name of the same file, None if there is none."""
         real = _real_path(path)
         if real is None:
             return None
-        return next((kept for kept in self._open.values() if _real_path(kept.known.file.path) == real), None)
+        return next((entry for entry in self._open.values() if _real_path(entry.latest.file.path) == real), None)
 
     def changed(self, document: Document) -> bool:
         """True if a document's file differs from what was last read or saved."""
@@ -232,30 +232,30 @@ class DocumentService:
         return ContourDocument.of(empty_program(program.unit), file)
 
     def _opened(self, document: AnyDocument, notice: Notice | None, kept_copy: Path | None) -> Opened[AnyDocument]:
-        kept = self._open[document.file.opening] = _Kept(document)
-        holder = self._lock(kept)
+        entry = self._open[document.file.opening] = _OpenDocument(document)
+        holder = self._lock(entry)
         if holder is not None:
-            document = self._remember(kept, replace(document, file=replace(document.file, holder=holder)))
+            document = self._remember(entry, replace(document, file=replace(document.file, holder=holder)))
             return Opened(document, notice, Offer(questions.open_already(holder, self.clock()), kept_copy))
         if document.file.path is not None and document.file.stamp is not None:
             remove_killed_saves(document.file.path)
         opened = self._next_offer(document, kept_copy)
         return replace(opened, notice=opened.notice or notice)
 
-    def _remember(self, kept: _Kept, document: AnyDocument) -> AnyDocument:
-        kept.known = document
+    def _remember(self, entry: _OpenDocument, document: AnyDocument) -> AnyDocument:
+        entry.latest = document
         return document
 
-    def _lock(self, kept: _Kept) -> Owner | None:
+    def _lock(self, entry: _OpenDocument) -> Owner | None:
         """Lock the file, or return who else has it; where no lock can be written, no save can be written either."""
-        kept.lock, path = None, kept.known.file.path
+        entry.lock, path = None, entry.latest.file.path
         if path is None:
             return None
         with suppress(OSError):
             lock = take(path, self._owner_now())
             if isinstance(lock, Owner):
                 return lock
-            kept.lock = lock
+            entry.lock = lock
             # a killed process may have left a new journal that it had not yet renamed
             new_path(journal_path(path)).unlink(missing_ok=True)
         return None
@@ -264,12 +264,12 @@ class DocumentService:
 
     def answer(self, document: AnyDocument, offer: Offer, word: str) -> Opened[AnyDocument]:
         """Apply the answer to an offer; GO BACK changes nothing, and the next start asks again."""
-        kept = self._open[document.file.opening]
+        entry = self._open[document.file.opening]
         match word, offer.path, offer.left:
             case questions.TAKE_OVER, path, _:
-                return self._take_over(kept, document, path)
+                return self._take_over(entry, document, path)
             case questions.RESTORE, Path() as path, Journal() as journal:
-                return self._restore(kept, document, path, journal)
+                return self._restore(entry, document, path, journal)
             case questions.DISCARD, Path() as path, left if left is not None:
                 return self._put_away(document, path, left, offer.answered, "as a backup in")
             case questions.NOT_MINE, Path() as path, Journal() as journal if wants_answer(path):
@@ -333,7 +333,7 @@ class DocumentService:
     def _is_mine(self, path: Path, journal: Journal) -> bool:
         return of_user(journal.head.owner, path, self.state, self.me.user)
 
-    def _take_over(self, kept: _Kept, document: AnyDocument, kept_copy: Path | None) -> Opened[AnyDocument]:
+    def _take_over(self, entry: _OpenDocument, document: AnyDocument, kept_copy: Path | None) -> Opened[AnyDocument]:
         """Read the file again and lock it for this process."""
         path = document.file.path
         assert path is not None
@@ -344,23 +344,25 @@ class DocumentService:
             return Opened(document, Notice(f"It cannot be taken over: {_reason(error)}", warning=True))
         if not isinstance(fresh, type(document)):
             return Opened(document, Notice("It cannot be taken over: the file is of another kind now.", warning=True))
-        kept.lock = lock
+        entry.lock = lock
         state = replace(fresh.file, opening=document.file.opening)
-        taken = self._remember(kept, replace(fresh, file=state))
+        taken = self._remember(entry, replace(fresh, file=state))
         opened = self._next_offer(taken, kept_copy)
         notice = opened.notice or Notice(f"{name_of(taken)} is yours now.")
         return Opened(opened.document, notice, opened.offer)
 
-    def _restore(self, kept: _Kept, document: AnyDocument, path: Path, journal: Journal) -> Opened[AnyDocument]:
+    def _restore(
+        self, entry: _OpenDocument, document: AnyDocument, path: Path, journal: Journal
+    ) -> Opened[AnyDocument]:
         """Restore the work with its undo history, and begin its journal anew with all of it."""
         now = document.file
         stamp = journal.head.stamp if now.stamp is not None else None
         work = document.restored(journal)
-        work = self._remember(kept, replace(work, file=replace(now, stamp=stamp)))
+        work = self._remember(entry, replace(work, file=replace(now, stamp=stamp)))
         try:
-            aside = self._journal_of_restored(kept, work, path, journal)
+            aside = self._journal_of_restored(entry, work, path, journal)
         except (OSError, StoreError) as error:
-            kept.journal = None
+            entry.journal = None
             return Opened(work, Notice(f"Restored. Not on disk: {_reason(error)}", warning=True))
         copy = f" {whole_name(aside)} holds a copy: Ctrl+O lists it." if aside is not None else ""
         whose = self._whose(journal.head.owner)
@@ -372,20 +374,20 @@ class DocumentService:
             return f"The work of {person(owner)} is here."
         return "The other terminal's work is here." if alive(owner) and owner != self.me else "Your work is back."
 
-    def _journal_of_restored(self, kept: _Kept, work: Document, path: Path, journal: Journal) -> Path | None:
+    def _journal_of_restored(self, entry: _OpenDocument, work: Document, path: Path, journal: Journal) -> Path | None:
         """Begin a journal with the restored work; return the old journal's path unless it is replaced or gone."""
         mine, living = self._is_mine(path, journal), alive(journal.head.owner)
         replaced = mine and not living and wants_answer(path) and not journal.damaged
         place, aside = journal_place(work.file.path, self.me, self.state), None
         if replaced and path == place:
-            kept.journal = new_journal(path, work.file.path)
-            kept.journal.replace(self._all_records(work))
+            entry.journal = new_journal(path, work.file.path)
+            entry.journal.replace(self._all_records(work))
             return None
         if journal.damaged and mine and not living and wants_answer(path):
             aside = set_aside(path, "damaged") if path.exists() else None
         elif not replaced and path.exists():
             aside = self._move_aside(path, journal)
-        self._begin_journal(kept, work)
+        self._begin_journal(entry, work)
         if replaced:
             # all of it is in the new journal
             path.unlink(missing_ok=True)
@@ -422,53 +424,55 @@ class DocumentService:
             notice = Notice(f"The unsaved work cannot be renamed: {why(error)}", warning=True)
         return self._next_offer(document, answered=answered | {path, aside}, notice=notice)
 
-    # ---- keep
+    # ---- write the journal
 
     def keep(self, document: Document) -> Notice | None:
         """Write the edits since the last call to disk; call it before the next key is read."""
         closed = document.file.opening not in self._open
-        kept = self._open.setdefault(document.file.opening, _Kept(document))
-        known, kept.known = kept.known, document
+        entry = self._open.setdefault(document.file.opening, _OpenDocument(document))
+        before, entry.latest = entry.latest, document
         if closed and document.unsaved:
             # edited while its closing waited for the disk: it is open again, with all of its work
-            self._lock(kept)
-        elif same_edits(known.work, document.work):
+            self._lock(entry)
+        elif same_edits(before.work, document.work):
             return None
         try:
-            gone = self._write_journal(kept, known, document)
+            gone = self._write_journal(entry, before, document)
         except (OSError, StoreError) as error:
-            kept.failing = True
+            entry.failing = True
             return Notice(f"Not on disk: {_reason(error)} {SAVE_ELSEWHERE}", warning=True)
-        was_failing, kept.failing = kept.failing, False
+        was_failing, entry.failing = entry.failing, False
         return (
-            self._taken_notice(kept)
-            or self._place_notice(kept, gone=gone)
+            self._taken_notice(entry)
+            or self._place_notice(entry, gone=gone)
             or (Notice("Work is kept on the disk again.") if was_failing else None)
         )
 
-    def _write_journal(self, kept: _Kept, known: Document, document: Document) -> bool:
+    def _write_journal(self, entry: _OpenDocument, before: Document, document: Document) -> bool:
         """Write the edits to a journal beside the file, else in the user's folder; True if the old journal was gone."""
-        gone = kept.journal is not None and kept.journal.lost()
-        if gone and kept.journal is not None:
-            kept.journal.close()
-            kept.journal = None
+        gone = entry.journal is not None and entry.journal.lost()
+        if gone and entry.journal is not None:
+            entry.journal.close()
+            entry.journal = None
         try:
-            if kept.journal is None:
-                self._begin_journal(kept, document)
+            if entry.journal is None:
+                self._begin_journal(entry, document)
             else:
-                self._continue_journal(kept, kept.journal, known, document)
+                self._continue_journal(entry, entry.journal, before, document)
         except (OSError, StoreError):
-            if not self._begin_elsewhere(kept, document):
+            if not self._begin_elsewhere(entry, document):
                 raise
-        kept.whole = False
+        entry.rewrite = False
         return gone
 
-    def _continue_journal(self, kept: _Kept, journal: JournalFile, known: Document, document: Document) -> None:
-        records = None if kept.whole else records_between(known.work, document.work)
+    def _continue_journal(
+        self, entry: _OpenDocument, journal: JournalFile, before: Document, document: Document
+    ) -> None:
+        records = None if entry.rewrite else records_between(before.work, document.work)
         if records is not None and journal.length <= MAX_JOURNAL_GROWTH[document.kind]:
             journal.add(continuing(records, document.place, self.clock()))
             return
-        kept.whole = True
+        entry.rewrite = True
         journal.replace(self._all_records(document))
 
     def _all_records(self, document: Document) -> Iterator[Any]:
@@ -479,34 +483,34 @@ class DocumentService:
         path = document.file.path
         return Head(self.me, None if path is None else str(path.absolute()), document.file.stamp)
 
-    def _begin_journal(self, kept: _Kept, document: Document) -> None:
+    def _begin_journal(self, entry: _OpenDocument, document: Document) -> None:
         """Begin a journal with all work, beside the file if possible, else elsewhere; raise OSError if both fail."""
         path = document.file.path
-        kept.journal = new_journal(journal_place(path, self.me, self.state), path)
+        entry.journal = new_journal(journal_place(path, self.me, self.state), path)
         try:
-            kept.journal.add(self._all_records(document))
+            entry.journal.add(self._all_records(document))
         except OSError:
-            if not self._begin_elsewhere(kept, document):
+            if not self._begin_elsewhere(entry, document):
                 raise
 
-    def _begin_elsewhere(self, kept: _Kept, document: Document) -> bool:
+    def _begin_elsewhere(self, entry: _OpenDocument, document: Document) -> bool:
         """Begin a journal with all work in the user's folder, then remove the one beside the file; False on failure."""
         path = document.file.path
-        if path is None or (kept.journal is not None and kept.journal.path.parent == self.state):
+        if path is None or (entry.journal is not None and entry.journal.path.parent == self.state):
             return False
         try:
             other = new_journal(elsewhere(path, self.state), path)
             other.add(self._all_records(document))
         except OSError:
             return False
-        if kept.journal is not None:
-            kept.journal.remove()
-        kept.journal = other
+        if entry.journal is not None:
+            entry.journal.remove()
+        entry.journal = other
         return True
 
-    def _place_notice(self, kept: _Kept, *, gone: bool) -> Notice | None:
+    def _place_notice(self, entry: _OpenDocument, *, gone: bool) -> Notice | None:
         """Say that the journal was gone, that it is not beside its file, and what was moved aside for it."""
-        journal, path = kept.journal, kept.known.file.path
+        journal, path = entry.journal, entry.latest.file.path
         if journal is None:
             return None
         aside, journal.aside = journal.aside, None
@@ -515,20 +519,20 @@ class DocumentService:
             sentences.append(
                 f"The journal of unsaved work was gone: all of it is in {printable_path(journal.path)} now."
             )
-        elif path is not None and journal.path.parent == self.state and not kept.away:
+        elif path is not None and journal.path.parent == self.state and not entry.away:
             place = printable_path(str(journal.path.parent))
             sentences.append(f"The folder of {printable(path.name)} takes nothing: unsaved work is kept in {place}")
-        kept.away = kept.away or journal.path.parent == self.state
+        entry.away = entry.away or journal.path.parent == self.state
         if aside is not None:
             sentences.append(f"{whole_name(aside)} holds what was left before; Ctrl+O lists it.")
         return Notice(" ".join(sentences), warning=True) if sentences else None
 
-    def _taken_notice(self, kept: _Kept) -> Notice | None:
+    def _taken_notice(self, entry: _OpenDocument) -> Notice | None:
         """Say once that somebody has taken the document over."""
-        owner = None if kept.lock is None or kept.warned else taken_by(kept.lock)
+        owner = None if entry.lock is None or entry.warned else taken_by(entry.lock)
         if owner is None:
             return None
-        kept.warned = True
+        entry.warned = True
         return Notice(f"{held_sentence(owner, self.clock())} SAVE AS (Ctrl+K) keeps your work.", warning=True)
 
     # ---- save
@@ -549,7 +553,7 @@ class DocumentService:
     def _save(
         self, document: AnyDocument, path: Path | None, agreed: frozenset[str]
     ) -> Saved[AnyDocument] | Ask | Trouble:
-        kept, file = self._open[document.file.opening], document.file.path
+        entry, file = self._open[document.file.opening], document.file.path
         if path is None and file is None:
             return Trouble(f"{name_of(document)} has no name yet. SAVE AS (Ctrl+K) gives it one.")
         target = file if path is None else chosen(path, file)
@@ -560,8 +564,8 @@ class DocumentService:
             return trouble
         if target != file:
             ask = None if agreed else self._ask_before_other(document, target)
-            return ask or self._write_file(kept, document, target, None)
-        return self._save_own(kept, document, target, agreed)
+            return ask or self._write_file(entry, document, target, None)
+        return self._save_own(entry, document, target, agreed)
 
     def _refusal(self, document: Document, target: Path) -> Trouble | None:
         """Return why a file cannot be written, whatever the operator answers; None if it can."""
@@ -573,8 +577,8 @@ class DocumentService:
         if holder is not None and target == document.file.path:
             return Trouble(f"{held_sentence(holder, self.clock())} SAVE AS (Ctrl+K) saves your own copy.")
         open_here = self._open_here(target)
-        if open_here is not None and open_here.known.file.opening is not document.file.opening:
-            return Trouble(f"{printable(target.name)} is open here, too. Type another name.", open_here.known)
+        if open_here is not None and open_here.latest.file.opening is not document.file.opening:
+            return Trouble(f"{printable(target.name)} is open here, too. Type another name.", open_here.latest)
         try:
             if document.kind is Kind.NC and target != document.file.path:
                 refuse_program(target)
@@ -588,18 +592,18 @@ class DocumentService:
         return questions.replace_file(target, held_by(target)) if os.path.lexists(target) else None
 
     def _save_own(
-        self, kept: _Kept, document: AnyDocument, path: Path, agreed: frozenset[str]
+        self, entry: _OpenDocument, document: AnyDocument, path: Path, agreed: frozenset[str]
     ) -> Saved[AnyDocument] | Ask | Trouble:
         """Save a document to its own file."""
         today = self.clock()
-        if not agreed or kept.copy is None or os.path.lexists(kept.copy):
-            kept.copy = free_copy_name(path, "mine", today)
-        copy = kept.copy
+        if not agreed or entry.copy is None or os.path.lexists(entry.copy):
+            entry.copy = free_copy_name(path, "mine", today)
+        copy = entry.copy
         if {questions.KEEP_BOTH, questions.THEIRS, questions.FILE_AS_IT_IS} & agreed:
-            return self._write_file(kept, document, copy, None)
+            return self._write_file(entry, document, copy, None)
         if _leads_elsewhere(path) and not document.file.link_agreed and questions.WRITE_THERE not in agreed:
             return questions.write_through_link(path)
-        owner = None if kept.lock is None else taken_by(kept.lock)
+        owner = None if entry.lock is None else taken_by(entry.lock)
         if owner is not None and questions.WRITE_ANYWAY not in agreed:
             return questions.taken_over(path, owner, copy)
         theirs = None
@@ -610,7 +614,7 @@ class DocumentService:
                 return Trouble(error.text)
         elif (stop := self._ask_if_changed(document, path, copy, today)) is not None:
             return stop
-        return self._write_file(kept, document, path, theirs, link_agreed=questions.WRITE_THERE in agreed)
+        return self._write_file(entry, document, path, theirs, link_agreed=questions.WRITE_THERE in agreed)
 
     def _ask_if_changed(self, document: Document, path: Path, copy: Path, today: str) -> Ask | Trouble | None:
         """Return a question if the file differs from what was last read or saved, Trouble if it cannot be read."""
@@ -629,7 +633,7 @@ class DocumentService:
         return questions.changed_meanwhile(document, written, copy, readable=_readable(document, data))
 
     def _write_file(
-        self, kept: _Kept, document: AnyDocument, path: Path, theirs: Path | None, *, link_agreed: bool = False
+        self, entry: _OpenDocument, document: AnyDocument, path: Path, theirs: Path | None, *, link_agreed: bool = False
     ) -> Saved[AnyDocument] | Trouble:
         try:
             data = document.data()
@@ -641,58 +645,58 @@ class DocumentService:
         before = document.file
         agreed = (before.link_agreed and path == before.path) or (link_agreed and _leads_elsewhere(path))
         state = replace(before, path=path, stamp=stamp_of_data(data), link_agreed=agreed)
-        saved = self._remember(kept, document.saved(state))
-        if kept.journal is not None:
-            kept.journal.remove()
-        kept.journal, kept.whole, kept.failing, kept.away = None, False, False, False
+        saved = self._remember(entry, document.saved(state))
+        if entry.journal is not None:
+            entry.journal.remove()
+        entry.journal, entry.rewrite, entry.failing, entry.away = None, False, False, False
         if path != before.path:
-            saved = self._relock(kept, saved)
+            saved = self._relock(entry, saved)
         other = "" if theirs is None else f" The other version is in {whole_name(theirs)}."
         reason = f", in place: {in_place}" if in_place else ""
         return Saved(saved, Notice(f"Saved: {written_at(path)}{reason}{other}{_unread_note(saved)}"))
 
-    def _relock(self, kept: _Kept, document: AnyDocument) -> AnyDocument:
+    def _relock(self, entry: _OpenDocument, document: AnyDocument) -> AnyDocument:
         """Replace the lock after a save under another name."""
-        if kept.lock is not None:
-            release(kept.lock)
-        kept.warned = False
-        holder = self._lock(kept)
-        return self._remember(kept, replace(document, file=replace(document.file, holder=holder)))
+        if entry.lock is not None:
+            release(entry.lock)
+        entry.warned = False
+        holder = self._lock(entry)
+        return self._remember(entry, replace(document, file=replace(document.file, holder=holder)))
 
     # ---- leave
 
     def close(self, document: Document) -> None:
         """Close a saved or abandoned document: remove its journal and its lock."""
-        kept = self._open.pop(document.file.opening, None)
-        if kept is None:
+        entry = self._open.pop(document.file.opening, None)
+        if entry is None:
             return
-        if kept.journal is not None:
-            kept.journal.remove()
-        if kept.lock is not None:
-            release(kept.lock)
+        if entry.journal is not None:
+            entry.journal.remove()
+        if entry.lock is not None:
+            release(entry.lock)
 
     def stop(self) -> None:
         """End the service, wanted or not; unsaved work stays in the journals."""
-        for kept in self._open.values():
-            if kept.journal is not None and kept.known.unsaved:
-                self._last_try(kept, kept.journal)
-            elif kept.journal is not None:
-                kept.journal.remove()
-            if kept.lock is not None:
-                release(kept.lock)
+        for entry in self._open.values():
+            if entry.journal is not None and entry.latest.unsaved:
+                self._last_try(entry, entry.journal)
+            elif entry.journal is not None:
+                entry.journal.remove()
+            if entry.lock is not None:
+                release(entry.lock)
         self._open.clear()
 
-    def _last_try(self, kept: _Kept, journal: JournalFile) -> None:
+    def _last_try(self, entry: _OpenDocument, journal: JournalFile) -> None:
         """Try once more to write what failed before; the disk may have room by now."""
         try:
-            if kept.whole or journal.lost():
-                self._begin_journal(kept, kept.known)
+            if entry.rewrite or journal.lost():
+                self._begin_journal(entry, entry.latest)
             elif journal.unwritten:
                 journal.add(())
         except OSError:
-            self._begin_elsewhere(kept, kept.known)
-        if kept.journal is not None:
-            kept.journal.close()
+            self._begin_elsewhere(entry, entry.latest)
+        if entry.journal is not None:
+            entry.journal.close()
 
 
 def free_copy_name(path: Path, whose: str, today: str) -> Path:
