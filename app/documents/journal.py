@@ -18,7 +18,7 @@ from typing import Final
 
 from app.documents import contour_journal, nc_journal
 from app.documents.files import Stamp
-from app.documents.journal_file import DamagedError, Record, whole_lines
+from app.documents.journal_file import DamagedError, Record, valid_lines
 from app.documents.lock import Owner, owner_of
 from app.documents.nc_text import NcText
 from core.program.file.read import StoreError
@@ -28,7 +28,7 @@ from core.program.model import Program
 JOURNAL_FORMAT: Final = 3
 MAX_JOURNAL_BYTES: Final = 200_000_000
 """The size in bytes of the largest journal that is read: room for the largest NC text and edits as long as it."""
-MAX_WHOLE_EDITS: Final = 500
+MAX_UNDO_EDITS: Final = 500
 """The most undo steps that a new journal begins with, since it is written between two keystrokes."""
 _DIGEST: Final = re.compile(r"[0-9a-f]{16}")
 _DAMAGE: Final = (DamagedError, StoreError, ValueError, RecursionError, OverflowError)
@@ -82,7 +82,7 @@ class Journal:
 def beginning(kind: Kind, head: Head, work: Work, place: Place, time: str) -> Iterator[Record]:
     """Yield the records of a new journal: what the last edits of this work began with, and these edits."""
     first = work
-    for _ in work.past[-MAX_WHOLE_EDITS:]:
+    for _ in work.past[-MAX_UNDO_EDITS:]:
         first = first.undo()
     stamp = None if head.stamp is None else [head.stamp.size, head.stamp.changed, head.stamp.digest]
     whose = {"owner": asdict(head.owner), "file": head.file, "stamp": stamp}
@@ -152,7 +152,7 @@ def read_journal(data: bytes) -> Journal | None:
     """Return what a journal holds; None if not even its first line can be read."""
     journal: Journal | None = None
     length = 0
-    for line, after, _ in whole_lines(data):
+    for line, after, _ in valid_lines(data):
         try:
             record = json.loads(line)
             if not isinstance(record, dict):
@@ -166,7 +166,7 @@ def read_journal(data: bytes) -> Journal | None:
 
 def owner_in_another_version(data: bytes) -> Owner | None:
     """Return who began a journal in the format of another version of this program; None for any other journal."""
-    line = next((line for line, _, _ in whole_lines(data[: data.find(b"\n") + 1])), b"null")
+    line = next((line for line, _, _ in valid_lines(data[: data.find(b"\n") + 1])), b"null")
     try:
         match json.loads(line):
             case {"owner": owner, **rest} if rest.get("journal") != JOURNAL_FORMAT:
@@ -223,7 +223,7 @@ def _head_of(record: Record) -> Head:
         case {"owner": owner, "file": None | str() as file, "stamp": [size, time, str(digest)]}:
             if not _DIGEST.fullmatch(digest):
                 raise DamagedError
-            return Head(owner_of(owner), _path_of(file), Stamp(_whole_of(size), _whole_of(time), digest))
+            return Head(owner_of(owner), _path_of(file), Stamp(_integer_of(size), _integer_of(time), digest))
         case _:
             raise DamagedError
 
@@ -252,7 +252,7 @@ def _text_of(value: object) -> str:
     raise DamagedError
 
 
-def _whole_of(value: object) -> int:
+def _integer_of(value: object) -> int:
     """Return an integer that is not a bool; raise DamagedError for any other value."""
     if isinstance(value, int) and not isinstance(value, bool):
         return value

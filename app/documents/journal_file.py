@@ -149,7 +149,7 @@ def lines(records: Iterable[Record], total: int = 0) -> tuple[bytes, int]:
     return b"".join(written), total
 
 
-def whole_lines(data: bytes) -> Iterator[tuple[bytes, int, int]]:
+def valid_lines(data: bytes) -> Iterator[tuple[bytes, int, int]]:
     """Yield the JSON of each line before the first invalid one, with the length and checksum up to its end."""
     length, total = 0, 0
     for line in data.splitlines(keepends=True):

@@ -15,7 +15,7 @@ from hypothesis import strategies as st
 from app.documents.contour_journal import delta
 from app.documents.files import Stamp
 from app.documents.journal import (
-    MAX_WHOLE_EDITS,
+    MAX_UNDO_EDITS,
     Head,
     Journal,
     Kind,
@@ -137,8 +137,8 @@ def test_any_program_comes_back(first: Program, second: Program) -> None:
 
 
 def test_a_journal_of_a_long_history_begins_with_its_last_edits() -> None:
-    history = reduce(lambda history, step: step(history), map(typed, range(MAX_WHOLE_EDITS + 9)), History(PART))
-    assert read(whole(history)).work == History(history.program, history.past[-MAX_WHOLE_EDITS:])
+    history = reduce(lambda history, step: step(history), map(typed, range(MAX_UNDO_EDITS + 9)), History(PART))
+    assert read(whole(history)).work == History(history.program, history.past[-MAX_UNDO_EDITS:])
 
 
 def test_an_edit_that_a_reader_takes_for_none_is_one_that_is_undone() -> None:
