@@ -18,7 +18,7 @@ from app.screens.contour import ContourScreen
 from app.session.derivation import advised, derived, lookahead_table
 from app.session.messages import RowsKnown, TableNoted, Tone
 from app.session.session import Session
-from app.session.work import SHOWN_AFTER, Work, while_wanted
+from app.session.work import SECONDS_BEFORE_PROGRESS, Work, while_wanted
 from core.pipeline.derived import DerivedBlock
 from core.program.model import Program
 from core.progress import Stopped
@@ -71,7 +71,7 @@ class DerivationActions(App[int]):
         work = Work(on_stop)
         self._works = (*self._works, work)
         if self._work_timer is None:
-            self._work_timer = self.set_interval(SHOWN_AFTER, self.show_work)
+            self._work_timer = self.set_interval(SECONDS_BEFORE_PROGRESS, self.show_work)
         try:
             yield work
         finally:

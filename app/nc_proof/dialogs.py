@@ -15,7 +15,7 @@ from textual.widgets.option_list import Option
 
 from app.nc_proof.runs import Question, compare
 from app.screens.dialogs import Dialog
-from app.session.work import SHOWN_AFTER, Work
+from app.session.work import SECONDS_BEFORE_PROGRESS, Work
 from app.widgets.option_rows import OptionRows
 from app.widgets.plain import PlainText
 from core.progress import Stopped
@@ -49,7 +49,7 @@ class CompareControls(Dialog["tuple[str, bool] | None"]):
     def on_mount(self) -> None:
         """Run the program on all controls."""
         self.query_one("#question").border_subtitle = "Enter takes a control, Space draws its path dotted"
-        self.set_interval(SHOWN_AFTER, self._show_progress)
+        self.set_interval(SECONDS_BEFORE_PROGRESS, self._show_progress)
         self._compare()
 
     def on_unmount(self) -> None:

@@ -11,9 +11,9 @@ from textual.worker import Worker
 
 from core.progress import Progress, Stopped
 
-SHOWN_AFTER: Final = 0.3
+SECONDS_BEFORE_PROGRESS: Final = 0.3
 """Seconds after which the progress of work is shown."""
-STOPS_AFTER: Final = 1.0
+SECONDS_BEFORE_STOP: Final = 1.0
 """Seconds after which Esc stops work."""
 
 
@@ -38,12 +38,12 @@ class Work:
     @property
     def long(self) -> bool:
         """True if the work has run long enough for its progress to be shown."""
-        return monotonic() - self.begun >= SHOWN_AFTER
+        return monotonic() - self.begun >= SECONDS_BEFORE_PROGRESS
 
     @property
     def stoppable(self) -> bool:
         """True if the work has run long enough for Esc to stop it."""
-        return monotonic() - self.begun >= STOPS_AFTER
+        return monotonic() - self.begun >= SECONDS_BEFORE_STOP
 
     @property
     def text(self) -> str:

@@ -26,9 +26,9 @@ from tests.app.widget_pilot import Operator, operator
 @pytest.fixture(autouse=True)
 def at_once(monkeypatch):
     """Work counts as long as soon as it starts."""
-    monkeypatch.setattr(work, "SHOWN_AFTER", 0.0)
-    monkeypatch.setattr(work, "STOPS_AFTER", 0.0)
-    monkeypatch.setattr("app.derivation_actions.SHOWN_AFTER", 0.02)
+    monkeypatch.setattr(work, "SECONDS_BEFORE_PROGRESS", 0.0)
+    monkeypatch.setattr(work, "SECONDS_BEFORE_STOP", 0.0)
+    monkeypatch.setattr("app.derivation_actions.SECONDS_BEFORE_PROGRESS", 0.02)
 
 
 class Slow:
