@@ -30,7 +30,7 @@ from app.documents.paths import short_path
 from app.screens.base import NO_LIST_KEYS, BaseScreen
 from app.session.formats import counted, length
 from app.session.messages import Sentence, Tone
-from app.widgets.about import About
+from app.widgets.block_summary import BlockSummary
 from app.widgets.drawing import Drawable, Drawing
 from app.widgets.option_rows import TypedLetters
 from app.widgets.plain import PlainText
@@ -81,7 +81,7 @@ class HomeScreen(BaseScreen):
             files.border_title = "PROGRAMS"
             yield PlainText(id="folder", classes="head")
             yield RowTable(COLUMNS, id="programs")
-            yield About(id="file-about", classes="about")
+            yield BlockSummary(id="file-about", classes="block-summary")
         yield Drawing(id="preview")
 
     def on_mount(self) -> None:
@@ -204,7 +204,7 @@ class HomeScreen(BaseScreen):
         drawing = self.query_one("#preview", Drawing)
         drawing.heading, drawing.subject = heading, subject
         unit = Unit.IN if derived is None else derived.program.unit
-        self.query_one(About).show(None if derived is None else derived.block(1), unit, self.host.characters)
+        self.query_one(BlockSummary).show(None if derived is None else derived.block(1), unit, self.host.characters)
 
     # ---- keys
 

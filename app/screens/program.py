@@ -19,7 +19,7 @@ from app.session.derivation import times_in_words
 from app.session.formats import counted
 from app.session.guide import on_program
 from app.session.session import Session
-from app.widgets.about import About
+from app.widgets.block_summary import BlockSummary
 from app.widgets.drawing import Drawing
 from app.widgets.findings_list import FindingsList
 from app.widgets.plain import PlainLabel
@@ -79,7 +79,7 @@ class ProgramScreen(BaseScreen):
                 yield PlainLabel(id="block-count", classes="head-kind")
                 yield PlainLabel(id="program-file", classes="head-note")
             yield RowTable(COLUMNS, id="blocks")
-            yield About(id="program-about", classes="about")
+            yield BlockSummary(id="program-about", classes="block-summary")
             yield FindingsList(id="program-findings")
         yield Drawing(id="block-drawing")
 
@@ -136,7 +136,7 @@ class ProgramScreen(BaseScreen):
             return
         block = session.derived.block(self.chosen)
         times = self.times.get(block.number, "")
-        self.query_one(About).show(block, session.program.unit, self.host.characters, times)
+        self.query_one(BlockSummary).show(block, session.program.unit, self.host.characters, times)
         findings = self.query_one(FindingsList)
         if findings.display:
             table = session.lookahead_table if block is session.derived_block else None

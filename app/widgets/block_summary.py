@@ -1,4 +1,4 @@
-"""About says in a few lines what a block is: its contour, its tool, its limits and the verdict on it."""
+"""BlockSummary says in a few lines what a block is: its contour, its tool, its limits and the verdict on it."""
 
 from __future__ import annotations
 
@@ -19,7 +19,7 @@ NAME_WIDTH = 10
 """Cells of the column with the names of the lines."""
 
 
-class About(PlainText):
+class BlockSummary(PlainText):
     """The lines on one block; empty without one."""
 
     def show(self, block: DerivedBlock | None, unit: Unit, characters: str, times: str = "") -> None:

@@ -5,13 +5,13 @@ from __future__ import annotations
 from textual.widgets import OptionList
 
 from app.screens.contour import ContourScreen
-from app.widgets.about import About
+from app.widgets.block_summary import BlockSummary
 from tests.app.screens.test_list_keys import run
 from tests.app.widget_pilot import Operator, operator
 
 
 def lines(user: Operator) -> list[str]:
-    return str(user.screen.query_one(About).content).split("\n")
+    return str(user.screen.query_one(BlockSummary).content).split("\n")
 
 
 async def test_program_says_what_the_block_is_and_lists_its_findings_where_there_is_room():
@@ -45,4 +45,4 @@ async def test_home_says_what_the_program_is():
 async def test_the_lines_are_hidden_on_small_terminals():
     async with operator() as user:
         await run(user, "app.program")
-        assert not user.screen.query_one(About).display
+        assert not user.screen.query_one(BlockSummary).display
