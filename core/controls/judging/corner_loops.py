@@ -20,7 +20,7 @@ from core.geometry.piece_arrays import PieceArrays, piece_arrays
 from core.tolerance import JOINED
 from core.verify.self_crossings import self_crossings
 
-LARGEST_SHARE: Final = 0.5
+MIN_CONTOUR_SHARE: Final = 0.5
 """Share of the rest of the contour above which a loop counts as part of the contour."""
 
 MAX_LOOP_SHARE: Final = 0.25
@@ -63,7 +63,7 @@ def _first_loop(contour: Path, side: Side) -> tuple[int, int, Floats] | None:
     length = float(walls.stations[-1])
     for begin, end in crossings.tolist():
         inside = (crossings > begin + JOINED) & (crossings < end - JOINED)
-        if inside.any() or end - begin > LARGEST_SHARE * (length - end + begin):
+        if inside.any() or end - begin > MIN_CONTOUR_SHARE * (length - end + begin):
             continue
         first, last = (int(np.searchsorted(walls.stations[1:-1], at, side="right")) for at in (begin, end))
         if last > first + 1 and _goes_around(contour, walls, first, last, side):

@@ -45,13 +45,13 @@ CHORDS_PER_QUARTER: Final = 32
 MIN_CUT_DEPTH: Final = 0.01
 """Least depth in millimeters at which a path cuts a wall away."""
 
-LEFT_OVER: Final = 0.05
+MAX_WALL_LEFT: Final = 0.05
 """Millimeters of a wall that may remain when it is cut away; rounded ends leave that much."""
 
-LEAST_INSIDE: Final = 0.01
+MAX_ISLAND_SHARE: Final = 0.01
 """An island is destroyed if no more than this share of its inside stays."""
 
-MOST_MEASURED: Final = 10
+MAX_MEASURED_PATHS: Final = 10
 """Most paths into one contour whose cuts are measured."""
 
 
@@ -77,7 +77,7 @@ class _Pass:
 
     moves: Moves
     radius: float
-    own_shapes: frozenset[PathKey]
+    contour_shapes: frozenset[PathKey]
     setup: int
     regions: dict[tuple[float, float], BaseGeometry] = field(default_factory=dict)
 
@@ -183,24 +183,26 @@ def _bounds(paths: Sequence[Path]) -> Floats:
 def _cut(wall: _Wall, passes: Sequence[_Pass]) -> ContourCut | None:
     """Return the deepest cut of these passes into a contour; None if there is none, or its wall was not to stay."""
     top = wall.contour.top
-    own_region = shapely.union_all(
-        [sweep.swept(top, MIN_CUT_DEPTH) for sweep in passes if wall.shape in sweep.own_shapes]
+    cut_region = shapely.union_all(
+        [sweep.swept(top, MIN_CUT_DEPTH) for sweep in passes if wall.shape in sweep.contour_shapes]
     )
-    line, inside = _outline(wall.contour.path, own_region)
-    stands, core, cutting = line.intersection(own_region), inside, list[_Pass]()
+    line, inside = _outline(wall.contour.path, cut_region)
+    stands, core, cutting = line.intersection(cut_region), inside, list[_Pass]()
     for sweep in passes:
-        if wall.shape in sweep.own_shapes or not sweep.swept(top, -MIN_CUT_DEPTH).intersects(line):
+        if wall.shape in sweep.contour_shapes or not sweep.swept(top, -MIN_CUT_DEPTH).intersects(line):
             continue
         cutting.append(sweep)
         region = sweep.swept(top, -MIN_CUT_DEPTH)
         stands, core = stands.difference(region), core.difference(region)
-        if stands.length <= LEFT_OVER and inside.is_empty:
+        if stands.length <= MAX_WALL_LEFT and inside.is_empty:
             return None
-    destroyed = not inside.is_empty and core.area <= LEAST_INSIDE * inside.area
-    if not cutting or (stands.length <= LEFT_OVER and not destroyed):
+    destroyed = not inside.is_empty and core.area <= MAX_ISLAND_SHARE * inside.area
+    if not cutting or (stands.length <= MAX_WALL_LEFT and not destroyed):
         return None
     return max(
-        (cut for sweep in cutting[:MOST_MEASURED] for cut in _measured(wall.contour, sweep)), key=_depth, default=None
+        (cut for sweep in cutting[:MAX_MEASURED_PATHS] for cut in _measured(wall.contour, sweep)),
+        key=_depth,
+        default=None,
     )
 
 
