@@ -154,7 +154,7 @@ def split_where_it_closes(path: Path) -> SplitContours:
         back = _split_at_start(path.reversed())
         split = None if back is None else (back[0].reversed(), back[1].reversed())
     if split is None:
-        path = _split_at_corner(path) or _split_at_laps(path)
+        path = _split_at_corner(path) or _split_at_overlap(path)
         return _split_open_contours(path, contours_of(path))
     straight, closing = split
     return _split_open_contours(straight, contours_of(closing))
@@ -205,7 +205,7 @@ def _split_at_corner(path: Path) -> Path | None:
     return None
 
 
-def _split_at_laps(path: Path) -> Path:
+def _split_at_overlap(path: Path) -> Path:
     """Split the first and the last line where a lap between them has a corner, and runs on or comes along that line."""
     if len(path) < 4:
         return path
