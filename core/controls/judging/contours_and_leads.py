@@ -206,7 +206,7 @@ def _split_at_corner(path: Path) -> Path | None:
 
 
 def _split_at_overlap(path: Path) -> Path:
-    """Split the first and the last line where a lap between them has a corner, and runs on or comes along that line."""
+    """Split the first and the last line where the contour between them has a corner and follows that line."""
     if len(path) < 4:
         return path
     for is_last in (False, True):

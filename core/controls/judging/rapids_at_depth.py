@@ -99,9 +99,9 @@ def _adjoining_feeds(run: ControlRun) -> Iterator[tuple[Stretch, int, int]]:
     for index, stretch in enumerate(run.stretches):
         first, last = stretch.first, stretch.last - 1
 
-        def cuts(row: int, beside: int) -> bool:
-            """True if the move to a row is a feed move at the height of the row beside it."""
-            level = max(abs(heights[end] - heights[beside]) for end in (row - 1, row)) <= ON_PATH
+        def cuts(row: int, stretch_row: int) -> bool:
+            """True if the move to a row is a feed move at the height of `stretch_row`."""
+            level = max(abs(heights[end] - heights[stretch_row]) for end in (row - 1, row)) <= ON_PATH
             return bool(row not in run.unplaced and not rapid[row] and level)
 
         while first >= ends[index] and cuts(first, stretch.first):

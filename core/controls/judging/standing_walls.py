@@ -107,8 +107,8 @@ def standing_walls(passes: Sequence[ClosedPass], side: Side, radius: float) -> l
     for rows, region in zip(runs, regions, strict=True):
         path = joined([passes[row].path for row in rows])
         near = sorted(tree.query(region).tolist())
-        behind = [row for each in near if _cuts_away(region, regions[each], side, radius) for row in runs[each]]
-        others = [_lowest(row, passes, behind) for row in rows]
+        cutting = [row for each in near if _cuts_away(region, regions[each], side, radius) for row in runs[each]]
+        others = [_lowest(row, passes, cutting) for row in rows]
         low = min(passes[row].low for row in rows)
         highest = None if None in others else max((each for each in others if each), key=lambda other: other.high)
         if highest is None:
@@ -118,9 +118,9 @@ def standing_walls(passes: Sequence[ClosedPass], side: Side, radius: float) -> l
     return walls
 
 
-def _lowest(row: int, passes: Sequence[ClosedPass], behind: Sequence[int]) -> ClosedPass | None:
-    """Return the lowest of the passes behind a wall that cuts the wall away."""
-    others = [passes[index] for index in behind if index > row or passes[index].high > passes[row].low + ON_PATH]
+def _lowest(row: int, passes: Sequence[ClosedPass], cutting: Sequence[int]) -> ClosedPass | None:
+    """Return the lowest of the passes `cutting` the wall of pass `row` away, later or from above; None without one."""
+    others = [passes[index] for index in cutting if index > row or passes[index].high > passes[row].low + ON_PATH]
     return min(others, key=lambda other: other.high, default=None)
 
 
