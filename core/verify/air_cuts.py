@@ -83,23 +83,23 @@ def backwards(pairs: Pairs, radius: float) -> tuple[int, ...]:
 
     Only the walls nearest to a piece count: a piece that gouges may run along others behind them either way.
     """
-    against = (_ways(pairs, radius) < 0) & (pairs.pieces.length > MAX_DIRECTIONLESS_LENGTH)
+    against = (_directions(pairs, radius) < 0) & (pairs.pieces.length > MAX_DIRECTIONLESS_LENGTH)
     return tuple(pairs.pieces.rows[against].tolist())
 
 
-def _ways(pairs: Pairs, radius: float) -> Rows:
+def _directions(pairs: Pairs, radius: float) -> Rows:
     """Return (n,) +1 for pieces that run with some wall they touch, -1 if they run against all of them, else 0."""
     touching = (pairs.least <= radius + pairs.grant).nonzero()[0]
     way = np.zeros(len(touching), np.intp)
     for block in blocks(pairs.pieces.arcs[pairs.i[touching]], pairs.others.arcs[pairs.j[touching]]):
-        way[block] = _way(pairs.keep(touching[block]), radius)
+        way[block] = _direction(pairs.keep(touching[block]), radius)
     ways = np.zeros(len(pairs.pieces), np.intp)
     ways[pairs.i[touching[way < 0]]] = -1
     ways[pairs.i[touching[way > 0]]] = 1
     return ways
 
 
-def _way(pairs: Pairs, radius: float) -> Rows:
+def _direction(pairs: Pairs, radius: float) -> Rows:
     """Return +1 if a piece and the wall it touches run side by side in the same direction, -1 if opposite, else 0."""
     limit = radius + pairs.grant
     piece, wall = pairs.pieces.take(pairs.i), pairs.others.take(pairs.j)
@@ -116,11 +116,11 @@ def _way(pairs: Pairs, radius: float) -> Rows:
     way: Rows = np.where(wide & alike, plain, 0.0).astype(np.intp)
     others = (~alike & (np.abs(pairs.from_piece[1] - radius) <= 2.0 * (pairs.grant + ON_PATH))).nonzero()[0]
     if len(others):
-        way[others] = _way_in_the_middle(pairs.keep(others), radius)
+        way[others] = _direction_at_middle(pairs.keep(others), radius)
     return way
 
 
-def _way_in_the_middle(pairs: Pairs, radius: float) -> Rows:
+def _direction_at_middle(pairs: Pairs, radius: float) -> Rows:
     """Return the same for pieces whose middle is a radius from the wall and parallel to it there."""
     piece, wall = pairs.pieces.take(pairs.i), pairs.others.take(pairs.j)
     half = np.full(len(pairs.i), 0.5)
