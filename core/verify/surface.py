@@ -197,8 +197,9 @@ def _in_line(walls: PieceArrays, rows: range) -> int:
 def _may_be_walls(walls: PieceArrays, outward: range, beyond: float, most: float) -> set[int]:
     """Return the rows, from the crossing `outward`, that are taken for leads but may be walls.
 
-    They are lines that bend off the first of these rows, and that row itself if more than the share `most` of its
-    element lies `beyond` (mm) the crossing.  If the crossing is a joint, the moves past it are leads on purpose.
+    They are lines that bend off the first of these rows, and the rows of its own element if more than the share `most`
+    of that lies beyond the crossing, `beyond` (mm) of the first row.  If the crossing is a joint, the moves past it are
+    leads on purpose.
     """
     if beyond <= JOINED:
         return set()
@@ -206,7 +207,9 @@ def _may_be_walls(walls: PieceArrays, outward: range, beyond: float, most: float
     far, near = _in_line(walls, outward), _in_line(walls, inward)
     rows = {row for row in outward if not walls.arcs[row] and abs(row - outward[0]) > abs(far - outward[0])}
     element = float(walls.length[min(far, near) : max(far, near) + 1].sum())
-    return rows | {outward[0]} if beyond > most * element else rows
+    in_line = range(outward[0], far + outward.step, outward.step)
+    beyond += float(walls.length[list(in_line[1:])].sum())
+    return rows | set(in_line) if beyond > most * element else rows
 
 
 def _between(path: Path, begin: int, end: int, at: Point) -> Path:

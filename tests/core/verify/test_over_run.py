@@ -300,6 +300,14 @@ def test_long_leads_at_both_ends_are_named_as_possible_walls() -> None:
     assert "Taken for lead beyond it: segments 1 and 4. " in over_run.text
 
 
+def test_a_long_lead_in_several_moves_of_one_line_is_named_as_a_possible_wall() -> None:
+    """Of its 4.5, 3 lie beyond the crossing, as in one move, but only 0.1 of the move that crosses."""
+    contour = lines((-3, 0), (-1, 0), (-0.1, 0), (0.5, 0), *SQUARE, (0, 0.2))
+    (over_run, *_) = verdict_findings(judge(contour, Side.LEFT, R, around(R)), contour)
+    assert (over_run.code, over_run.severity) == ("OVER_RUN", Severity.WARNING)
+    assert "Taken for lead beyond it: segments 1, 2, 3 and 7. " in over_run.text
+
+
 def test_chords_that_count_as_one_straight_line_have_no_over_run(monkeypatch: pytest.MonkeyPatch) -> None:
     """A drop of 280 degrees and two tangents that cross; a line may bend by so much here that 40 chords are enough."""
     monkeypatch.setattr("core.verify.surface.IN_LINE", 0.2)
