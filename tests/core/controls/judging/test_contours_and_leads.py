@@ -121,7 +121,7 @@ def test_a_contour_with_a_loop_at_its_far_end_is_no_lead(control: str) -> None:
 
 
 @pytest.mark.parametrize("turned_round", [False, True])
-def test_laps_of_lines_are_split_at_their_start(turned_round: bool) -> None:
+def test_repeated_passes_of_lines_are_split_at_their_start(turned_round: bool) -> None:
     square = ((0, 2), (2, 2), (2, 0), (0, 0))
     laps = lines_through((-1, 1), (0, 1), *square, *square, (0, 1.2), (-1, 1.2))
     split = split_where_it_closes(laps.reversed() if turned_round else laps)
@@ -167,7 +167,7 @@ GOOD = {
 
 @pytest.mark.parametrize("control", ["fanuc:a", "haas:a", "linuxcnc"])
 @pytest.mark.parametrize("name", GOOD)
-def test_leads_and_laps_of_good_programs_do_not_gouge(name: str, control: str) -> None:
+def test_leads_and_repeated_passes_of_good_programs_do_not_gouge(name: str, control: str) -> None:
     start, cut = GOOD[name]
     text = FRAME.format(start=start, cut=cut.replace("D1 ", "") if control == "linuxcnc" else cut)
     run = ran(text, control, t1=10.0)
@@ -253,7 +253,7 @@ def test_an_arc_that_runs_past_the_start_is_split_there() -> None:
     assert split_where_it_closes(path.reversed()).contours == ((1, 3),)
 
 
-def test_each_of_two_laps_is_judged() -> None:
+def test_each_of_two_passes_of_a_contour_is_judged() -> None:
     start, cut = GOOD["two laps"]
     narrow = FRAME.format(start=start, cut=cut.replace("X80.", "X79.", 1))
     assert any(result.verdict.gouges for result in judge_run(ran(narrow, "fanuc:a", t1=10.0)))

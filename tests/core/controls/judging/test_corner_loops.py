@@ -59,7 +59,7 @@ def test_a_long_loop_is_a_warning() -> None:
         pytest.param("Y140.\nX-100.\nY40.\nX60.\n", id="longer than half of the rest"),
     ],
 )
-def test_what_is_no_such_loop_stays_a_wall(cut: str) -> None:
+def test_other_loops_stay_walls(cut: str) -> None:
     results, told = judged(cut)
     assert not told
     assert any(result.verdict.gouges for result in results)

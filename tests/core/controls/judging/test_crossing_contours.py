@@ -50,13 +50,13 @@ def test_an_island_too_near_to_its_pocket(top: float, depth: str | None) -> None
     assert max(found, key=lambda one: one[1])[1] == depth if depth else not found
 
 
-def test_a_contour_at_a_wrong_place_is_told_whichever_is_cut_first() -> None:
+def test_a_contour_at_a_wrong_place_is_reported_whichever_is_cut_first() -> None:
     """The second boss stands 30 to the right of the first one: each path runs through the other."""
     assert told(box(0, 0, 40, -5), box(30, 0, 40, -5))
     assert not told(box(0, 0, 40, -5), box(70, 0, 40, -5))
 
 
-def test_a_pass_into_the_wall_of_the_stretch_that_follows_at_once_is_told() -> None:
+def test_a_pass_into_the_wall_of_the_next_stretch_is_reported() -> None:
     """The first pass has X78 for X80: it cuts 2 into the wall that the second pass leaves."""
     lap = "G41 D1 X-12 Y13\nG3 X0 Y25 R12\nG1 Y50\nX{}\nY0\nX0\nY25\nG3 X-12 Y37 R12\nG1 G40 X-30 Y25\n"
     assert told(f"G0 X-30 Y25\nG1 Z-6\n{lap.format(78)}{lap.format(80)}G0 Z50\n") == [(9, "2.000")]
@@ -100,7 +100,7 @@ def test_of_a_roughed_pocket_the_finishing_cut_is_no_cut_of_another_contour(stoc
 
 
 @pytest.mark.parametrize("first", [True, False])
-def test_an_island_that_is_milled_away_is_told(first: bool) -> None:
+def test_an_island_that_is_milled_away_is_reported(first: bool) -> None:
     """A pass of 10 around 22 to 38 goes over all of an island from 26 to 34: 64 square millimeters, and none left."""
     ring = (
         "G0 X30 Y30\nG1 Z-5\nG41 D1 X30 Y22\nX32\nG3 X38 Y28 R6\nG1 Y32\nG3 X32 Y38 R6\nG1 X28\nG3 X22 Y32 R6\n"
@@ -111,7 +111,7 @@ def test_an_island_that_is_milled_away_is_told(first: bool) -> None:
 
 
 @pytest.mark.parametrize("between", ["G55\n", "G0 A90\n"])
-def test_contours_whose_places_the_program_does_not_compare_are_not_compared(between: str) -> None:
+def test_contours_under_different_work_offsets_or_clampings_are_not_compared(between: str) -> None:
     """Another work offset that is set on the control, or a turned part."""
     assert told(box(0, 0, 40, -5), box(30, 0, 40, -5))
     assert not told(box(0, 0, 40, -5), between, box(30, 0, 40, -5))

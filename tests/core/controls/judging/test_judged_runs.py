@@ -35,7 +35,7 @@ def test_a_clean_path_has_no_finding() -> None:
     assert not judged_findings(judge_run(run))
 
 
-def test_what_an_alarm_leaves_uncut_is_not_told() -> None:
+def test_stock_left_by_an_alarm_is_not_reported() -> None:
     text = "G21 G17 G90 F200\nT1 M6\nG0 X-20 Y-20\nG41 X0 Y-10\nG1 Z-3\nY50\nX80\n{}X-10\nG40 X-20\nM2\n"
     for wall, told in (("Y0\n", set()), ("Y45\nX84\nY0\n", {"N-CONCAVE"})):
         run = ran(text.format(wall), "linuxcnc", t1=10.0)
@@ -181,7 +181,7 @@ def test_a_wall_that_is_cut_before_the_alarm_that_precedes_it_is_gouged(control:
 
 
 @pytest.mark.parametrize("control", ["fanuc:a", "haas:a", "linuxcnc", "rosettacnc:normal"])
-def test_what_a_run_passes_over_after_its_alarm_is_no_wall(control: str) -> None:
+def test_moves_after_an_alarm_are_not_walls(control: str) -> None:
     text = "G21 G17 G90 G40 F200\nT1 M6\nG0 X-20. Y-20.\nG1 Z-5.\nG41 D1 X0. Y-10.\nY40.\nX60.\nY0.\nX-10.\nG0 Z50.\n"
     run = ran(f"{text}X100. Y-10.\nG1 Z-5.\nY40.\nX160.\nG40 Y60.\nM30\n", control, t1=10.0)
     assert run.stopped_at is not None

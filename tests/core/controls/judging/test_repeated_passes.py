@@ -111,7 +111,7 @@ def test_a_circle_cut_twice_becomes_one() -> None:
     assert len(without_repeats(twice)) == 1
 
 
-def test_moves_back_and_forth_or_onward_are_no_lap() -> None:
+def test_moves_back_and_forth_or_onward_are_not_repeated_passes() -> None:
     back = _chain([(0.0, 0.0), (9.0, 0.0), (0.0, 0.0)])
     assert without_repeats(back) is back
     stairs = _chain([(float(step // 2), float((step + 1) // 2)) for step in range(40)])
@@ -139,7 +139,7 @@ def test_passes_within_passes_are_reduced() -> None:
     assert reduced.numbers.tolist() == [1.0, 2.0, 3.0, 16.0, 17.0]
 
 
-def test_laps_that_differ_by_rounding_are_one_pass() -> None:
+def test_passes_that_differ_by_rounding_are_repeated_passes() -> None:
     steps = [(0.1, 0.2), *((x / 3.0, y / 7.0) for x, y in STEPS * 50)]
     points = np.vstack((np.cumsum(steps, axis=0), [(-5.0, 0.0)]))
     assert len(np.unique(points[:-1], axis=0)) > 4

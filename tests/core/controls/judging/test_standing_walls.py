@@ -97,7 +97,7 @@ def test_a_pass_that_shares_a_wall_with_the_later_one_is_a_wall() -> None:
     assert "GOUGE" in errors(list(judged_findings(judge_run(run))))
 
 
-def test_a_gouge_of_the_last_pass_is_told() -> None:
+def test_a_gouge_of_the_last_pass_is_reported() -> None:
     """The way out of the bore is to the left of the wall, where the part is."""
     start, passes, end = SHAPES["bore"]
     cut = f"G41 D1 G1 {passes.format(20, 28).replace('X5.', 'X40.')}\nG40 {end}"
