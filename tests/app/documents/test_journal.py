@@ -141,7 +141,7 @@ def test_a_journal_of_a_long_history_begins_with_its_last_edits() -> None:
     assert read(whole(history)).work == History(history.program, history.past[-MAX_UNDO_EDITS:])
 
 
-def test_an_edit_that_a_reader_takes_for_none_is_one_that_is_undone() -> None:
+def test_an_edit_that_reads_as_no_change_can_be_undone() -> None:
     renamed = replace(PART.blocks[0], x_start=Unread("2", "A segment was deleted."))
     history = History(PART)
     for block in (renamed, replace(renamed, x_start=Unread("2", "Another one, too.")), PART.blocks[0]):
@@ -177,7 +177,7 @@ def test_a_journal_cut_anywhere_yields_its_whole_lines() -> None:
 @must_exercise(0.2, "some", "none")
 @settings(max_examples=200, derandomize=True, deadline=None)
 @given(st.data())
-def test_a_wrong_byte_is_never_taken_for_a_right_one(draws: st.DataObject) -> None:
+def test_a_changed_byte_leaves_the_work_of_the_lines_before_it(draws: st.DataObject) -> None:
     data, _ = journal(*STEPS)
     at = draws.draw(st.integers(0, len(data) - 1))
     byte = draws.draw(st.integers(0, 255).filter(lambda one: one != data[at]))

@@ -252,7 +252,7 @@ def test_a_lost_journal_is_rewritten_in_full_and_reported(
     assert started(state, file).answer("RESTORE").work == operator.work
 
 
-def test_a_lost_state_folder_is_made_again(state: Path) -> None:
+def test_a_lost_state_folder_is_created_again(state: Path) -> None:
     operator = started(state).type(7)
     shutil.rmtree(state)
     assert "was gone" in operator.type(8).said

@@ -456,7 +456,7 @@ async def test_del_and_ins_delete_and_insert_segments_in_the_list(user: Operator
     assert len(user.session.block.segments) == 12
 
 
-async def test_a_block_deleted_by_a_second_press_of_a_softkey_is_said_and_comes_back(monkeypatch, tmp_path):
+async def test_a_block_deleted_by_a_second_press_of_a_softkey_is_reported_and_restored(monkeypatch, tmp_path):
     monkeypatch.chdir(tmp_path)
     async with operator("pocket") as user:
         await user.press("f8", "c")

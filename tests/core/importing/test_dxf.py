@@ -159,7 +159,7 @@ def test_the_unit_question_measures_curves() -> None:
     assert text.endswith("10 x 5: as IN 10.0000 x 5.0000, as MM 10.000 x 5.000")
 
 
-def test_what_is_in_paper_space_or_invisible_is_counted() -> None:
+def test_entities_in_paper_space_or_invisible_are_counted() -> None:
     hidden, paper = [*line((0, 0), (7, 5)), (60, 1)], [*line((0, 0), (5, 5)), (67, 1)]
     drawing = read(dxf(line((0, 0), (5, 5)), paper, hidden, hidden))
     assert (drawing.entities, drawing.skipped, drawing.hidden) == (1, {"LINE in paper space": 1}, {"0": 2})
@@ -578,7 +578,7 @@ def test_a_spline_keeps_its_degree_with_or_without_markers(version: str | None, 
 
 @pytest.mark.parametrize("version", ["AC1009", "AC1015"])
 @pytest.mark.parametrize("end", [b"\x1a", b"\n\n\n", b"\n\n", b"no\ncode\n"])
-def test_what_follows_eof_is_left_out(version: str, end: bytes) -> None:
+def test_tags_after_eof_are_ignored(version: str, end: bytes) -> None:
     corners = [(10, 0.0), (20, 0.0), (10, 50.0), (20, 0.0), (10, 50.0), (20, 30.0)]
     data = of_version(version, (0, "LWPOLYLINE"), (8, "CUT"), (90, 3), (70, 1), *corners)
     (contour,) = listed(data + end).contours

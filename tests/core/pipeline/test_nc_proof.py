@@ -115,5 +115,5 @@ def test_any_text_can_be_drawn(text: bytes) -> None:
         assert scene_at_line(fixed_scene(found), found, 1).marks
 
 
-def test_an_unknown_control_is_said() -> None:
+def test_an_unknown_control_is_reported() -> None:
     assert isinstance(run_program(SQUARE, "siemens", TOOLS), UnknownControl)

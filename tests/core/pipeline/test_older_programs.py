@@ -26,7 +26,7 @@ def test_it_is_read_and_written_unchanged():
     assert dumps(loads(TEXT, "part.toml")) == TEXT
 
 
-def test_it_posts_what_it_posted_then():
+def test_an_older_program_still_posts_the_same_nc_text():
     assert posted(loads(TEXT, "part.toml")) == (FOLDER / "part.nc").read_text(encoding="ascii")
 
 

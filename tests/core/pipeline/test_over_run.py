@@ -52,7 +52,7 @@ def test_a_larger_look_ahead_deletes_the_part_between_the_ends(lookahead):
 
 
 @pytest.mark.parametrize("lookahead", [None, 1, 4])
-def test_an_over_run_is_told_once_as_information(lookahead):
+def test_an_over_run_is_reported_once_as_information(lookahead):
     found = derived(OVER_RUN_SQUARE, lookahead)
     (told,) = [finding for finding in found.findings if finding.code == "OVER_RUN"]
     assert told.severity is Severity.INFO

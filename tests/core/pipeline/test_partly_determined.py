@@ -19,6 +19,6 @@ def without_end(number: int, part: str = "pocket") -> Program:
     return outcome
 
 
-def test_an_end_that_is_not_known_is_not_told_to_be_open() -> None:
+def test_an_undetermined_end_is_not_reported_as_open() -> None:
     found = derive(without_end(6)).blocks[0]
     assert not {"OPEN", "NEARLY_CLOSED"} & {one.code for one in found.findings}

@@ -67,14 +67,14 @@ def _spots(one: Piece, other: Piece) -> list[Point]:
         return [(x0 + t * (x1 - x0), y0 + t * (y1 - y0)) for t in shares if 0.0 <= t <= 1.0]
     cx, cy = one.center
     radius = hypot(one.start[0] - cx, one.start[1] - cy)
-    for x, y in _places_on(other, cx, cy, radius):
+    for x, y in _directions(other, cx, cy, radius):
         size = hypot(x, y)
         if size and _on(one, x, y):
             spots.append((cx + radius * x / size, cy + radius * y / size))
     return spots
 
 
-def _places_on(other: Piece, cx: float, cy: float, radius: float) -> list[Point]:
+def _directions(other: Piece, cx: float, cy: float, radius: float) -> list[Point]:
     """Directions from a circle's center in which it may be nearest to another piece or meet it."""
     if isinstance(other, Line):
         vx, vy = other.end[0] - other.start[0], other.end[1] - other.start[1]

@@ -32,7 +32,9 @@ def sampled(start: float, corners: list[Point]) -> float:
 
 @pytest.mark.parametrize("reach", [0.0, R - CUTTER - 0.3])
 @pytest.mark.parametrize("start", [0.05 * step for step in range(0, 126, 5)] + [3.2])
-def test_the_thickest_of_an_arc_is_told_where_its_center_is_a_corner_of_the_path(start: float, reach: float) -> None:
+def test_the_thickest_place_on_an_arc_is_reported_if_its_center_is_a_corner_of_the_path(
+    start: float, reach: float
+) -> None:
     end, middle = start + SWEEP, start + SWEEP / 2.0
     arc = Path.from_pieces([Arc(at(R, start), at(R, end), (0.0, 0.0), Turn.CCW)])
     detour = [at(reach, middle), (0.0, 0.0)] if reach else []

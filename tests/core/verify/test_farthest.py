@@ -19,7 +19,9 @@ from tests.core.verify.shapes import lines
 
 @pytest.mark.parametrize("begin", [-3.0, -2.0, -0.1])
 @pytest.mark.parametrize("floor", [lines((-10, 0), (10, 0)), lines((-10, 0), (-2.5, 0), (2.5, 0), (10, 0))])
-def test_the_top_of_an_arc_is_found_at_once(begin: float, floor: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_the_farthest_place_at_the_top_of_an_arc_needs_no_search(
+    begin: float, floor: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
     """One wall is nearest to both ends of what is left: it knows itself where it is farthest."""
     monkeypatch.setattr(module, "MAX_DIVISIONS", 4)
     walked = piece_arrays(

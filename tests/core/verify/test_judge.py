@@ -201,7 +201,7 @@ def test_all_is_uncut_without_a_path() -> None:
     assert verdict.clean
 
 
-def test_nothing_is_found_without_a_surface() -> None:
+def test_an_empty_surface_has_no_gouges_and_no_uncut_stretches() -> None:
     verdict = judge(EMPTY, Side.LEFT, R, MID_SIDE_PATH)
     assert verdict.clearance == inf
     assert verdict.uncut == ()

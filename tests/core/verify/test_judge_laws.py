@@ -80,7 +80,7 @@ def test_dense_points_say_the_same(surface: Path, center: Path, radius: float) -
 
 @settings(deadline=None, max_examples=30, derandomize=True)
 @given(paths(), paths(), st.sampled_from((0.1, 0.5, 1.0, 2.5)))
-def test_every_place_told_is_as_far_as_told(surface: Path, center: Path, radius: float) -> None:
+def test_every_reported_place_is_as_far_away_as_reported(surface: Path, center: Path, radius: float) -> None:
     verdict = judge(surface, Side.LEFT, radius, center)
     for gouge in verdict.gouges:
         (apart,) = oracle.apart(np.array([gouge.at]), surface)
