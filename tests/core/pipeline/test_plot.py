@@ -10,6 +10,7 @@ from app.documents.programs import example
 from core.draw.characters import Mode
 from core.draw.scene import Mark, Scene, Style, Symbol
 from core.draw.view import CELL_HEIGHT, View
+from core.geometry.piece import Line
 from core.pipeline.derive import derive, look_ahead_table
 from core.pipeline.plot import LOUPE_HEIGHT_RADII, SceneSubject, Subject, block_scene, nearest_segment, svg_of
 from core.program.model import ArcSegment, CutterComp, Direction, LineSegment, Number, PathChoice
@@ -64,6 +65,15 @@ def test_the_choices_of_an_undetermined_segment_are_drawn_separately():
     assert len(choices) > 1
     (dashed,) = [layer for layer in block_scene(derived_block, 2, Unit.IN).layers if layer.dashed]
     assert [tuple(part) for part in dashed.parts] == [(choice,) for choice in choices]
+
+
+def test_what_is_known_of_an_undetermined_line_is_drawn_dashed():
+    typed = block(((0.0, 0.0), (1.0, 0.0)), CutterComp.LEFT)
+    toward = LineSegment(x_end=Number(2.0), angle=Number(90.0))
+    derived_block = derived(program(replace(typed, segments=(*typed.segments, toward))))
+    assert derived_block.solved.determined == 1
+    (dashed,) = [layer for layer in block_scene(derived_block, 2, Unit.IN).layers if layer.dashed]
+    assert [tuple(part) for part in dashed.parts] == [(Line((25.4, 0.0), (50.8, 0.0)),)]
 
 
 def test_the_best_path_has_a_cutter_only_for_segments_it_follows():
