@@ -64,3 +64,6 @@ def only_on(controls: tuple[str, ...]) -> str:
         return ""
     names = " and ".join((", ".join(controls[:-1]), controls[-1])) if len(controls) > 1 else controls[0]
     return f"{names} {'have' if len(controls) > 1 else 'has'} it."
+
+
+D_AND_H_ANYWHERE: Final = f"{only_on(OFFSETS_ANYWHERE).removesuffix('.')} in any block."

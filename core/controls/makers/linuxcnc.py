@@ -15,7 +15,7 @@ from core.controls.compensation.element_queue import OneMoveQueue
 from core.controls.control_run import Log
 from core.controls.control_tools import ToolTable, missing_tool
 from core.controls.iso.arcs import ArcTolerance
-from core.controls.iso.code_support import OFFSETS_ANYWHERE, only_on
+from core.controls.iso.code_support import D_AND_H_ANYWHERE
 from core.controls.iso.dialect import PLANE_OF_CODE, USUAL_CODES, CodeAction, Dialect, codes
 from core.controls.iso.expressions import ParameterStore
 from core.controls.iso.machine import Control
@@ -101,7 +101,7 @@ class LinuxCnc(OneMoveQueue, Control):
             return
         words = block.words
         if "D" in words and COMPENSATION_CODES.isdisjoint(block.g) and 960 not in block.g:
-            text = f"D needs G41, G42, G41.1 or G42.1 in its block. In any block {only_on(OFFSETS_ANYWHERE)}"
+            text = f"D needs G41, G42, G41.1 or G42.1 in its block. {D_AND_H_ANYWHERE}"
             self.log.stop("N-DALONE", text, block.line, block.column("D"))
         if not _OTHERS.isdisjoint(words) or block.m or len(block.g) > 1 or 40 in block.g:
             self._other_words(block)
@@ -170,7 +170,7 @@ class LinuxCnc(OneMoveQueue, Control):
         for letter, codes_for in WORDS_NEED_CODES.items():
             if letter in block.words and given.isdisjoint(codes_for):
                 text = f"No code in this block uses {letter}. Remove it."
-                text = f"{text} In any block {only_on(OFFSETS_ANYWHERE)}" if letter == "H" else text
+                text = f"{text} {D_AND_H_ANYWHERE}" if letter == "H" else text
                 self.log.stop("N-WORDALONE", text, block.line, block.column(letter))
         if 40 in block.g and block.words.get("P", -1.0) < 0.0:
             text = "G4 needs P and the seconds to wait."

@@ -17,7 +17,7 @@ from core.controls.compensation.element_queue import AlarmCodes, ElementQueue, O
 from core.controls.compensation.elements import Element, fits, offset_end, offset_start
 from core.controls.control_run import Log
 from core.controls.control_tools import missing_tool
-from core.controls.iso.code_support import OFFSETS_ANYWHERE, only_on
+from core.controls.iso.code_support import D_AND_H_ANYWHERE
 from core.controls.iso.dialect import PLANE_OF_CODE, USUAL_CODES, CodeAction, Dialect, codes
 from core.controls.iso.expressions import ParameterStore
 from core.controls.iso.machine import Control
@@ -115,7 +115,7 @@ class RosettaCnc(Control):
         self.machine.check_codes(block)
         if "D" in block.words and COMPENSATION_CODES.isdisjoint(block.g):
             text = "D needs G41 or G42 in its block. cutcomp assumes this from NIST's list; the manual does not say."
-            text = f"{text} In any block {only_on(OFFSETS_ANYWHERE)}"
+            text = f"{text} {D_AND_H_ANYWHERE}"
             self.log.stop("C8", text, block.line, block.column("D"))
         if not self.active:
             return

@@ -16,7 +16,7 @@ from core.controls.compensation.corner_rules import CornerKind, CornerRules, Joi
 from core.controls.compensation.element_queue import ElementQueue
 from core.controls.compensation.elements import Element, element_sweep, fits, offset_end, offset_radius, offset_start
 from core.controls.control_run import Log
-from core.controls.iso.code_support import OFFSETS_ANYWHERE, only_on
+from core.controls.iso.code_support import D_AND_H_ANYWHERE
 from core.controls.iso.dialect import CodeAction, Dialect, codes
 from core.controls.iso.machine import Control
 from core.controls.iso.reader import COMPENSATION_CODES, Block, Syntax
@@ -82,7 +82,7 @@ class ThreeBlock(ElementQueue, Control):
         same_tool = not COMPENSATION_CODES.isdisjoint(block.g) and self.machine.tool in (0, block.words.get("D"))
         if "D" in block.words and not same_tool:
             text = "This control has no D: its radius is that of T. Write T and the diameter, as in T1//.5."
-            self.log.stop("CODE", f"{text} {only_on(OFFSETS_ANYWHERE)}", block.line, block.column("D"))
+            self.log.stop("CODE", f"{text} {D_AND_H_ANYWHERE}", block.line, block.column("D"))
         if "R" in block.words:
             text = "cutcomp does not know how this control takes R. Use I and J."
             self.log.tell(Severity.WARNING, "RADIUS", text, block.line, block.column("R"))

@@ -100,6 +100,12 @@ def test_linuxcnc_runs_its_path_modes_and_other_controls_name_linuxcnc(code: str
         assert (alarm(run).endswith("LinuxCNC has it.")) == (control != "linuxcnc"), control
 
 
+@pytest.mark.parametrize("control", ["linuxcnc", "rosettacnc"])
+def test_d_alone_names_the_controls_that_have_it_in_any_block(control: str) -> None:
+    run = ran("G20 G17 F9.\nD1 X1.\nM30\n", control)
+    assert alarm(run).endswith(" Allen-Bradley 9/Series, Fanuc and Haas have it in any block.")
+
+
 @pytest.mark.parametrize("control", ["rosettacnc", "nine-series"])
 def test_g10_l1_names_the_controls_that_set_tool_data(control: str) -> None:
     assert "LinuxCNC, Fanuc and Haas have it." in alarm(ran("G20 F9.\nG10 L1 P1 R.1\nG1 X1.\nM2\n", control))
@@ -122,7 +128,7 @@ def test_d_and_h_next_to_t_take_effect_on_the_nine_series() -> None:
 def test_the_alarm_for_d_next_to_t_names_controls_that_accept_it(control: str) -> None:
     run = ran("G20 G17 F9.\nT1 M6 D1\nG1 X1.\n", control, t1=0.5)
     assert run.stopped_at == 2
-    assert "Allen-Bradley 9/Series, Fanuc and Haas have it." in alarm(run)
+    assert "Allen-Bradley 9/Series, Fanuc and Haas have it in any block." in alarm(run)
 
 
 def test_d_of_a_tool_that_is_not_loaded_is_an_alarm_on_threeblock() -> None:
@@ -133,7 +139,7 @@ def test_d_of_a_tool_that_is_not_loaded_is_an_alarm_on_threeblock() -> None:
 
 
 def test_h_next_to_t_names_controls_that_accept_it() -> None:
-    assert "Fanuc and Haas have it." in alarm(ran("G20 F9.\nT1 M6 H1\nG1 X1.\nM2\n", "linuxcnc", t1=0.5))
+    assert "Fanuc and Haas have it in any block." in alarm(ran("G20 F9.\nT1 M6 H1\nG1 X1.\nM2\n", "linuxcnc", t1=0.5))
     (unused,) = findings_of(ran("G20 F9.\nT1 M6 H1\nG1 X1.\nM2\n", "rosettacnc", t1=0.5), "UNUSED")
     assert "Fanuc and Haas have it." in unused.text
 
