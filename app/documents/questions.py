@@ -90,7 +90,7 @@ def into_which(drawing: Path, document: Document) -> Ask:
     """Ask whether a drawing's contours go into the open program."""
     lines = (f"Contours of {printable(drawing.name)}:",)
     name = "the open program" if document.file.path is None else name_of(document)
-    answers = (Answer(ADD, f"behind the blocks of {name}"), Answer(NEW_PROGRAM, "of this drawing alone"))
+    answers = (Answer(ADD, f"after the blocks of {name}"), Answer(NEW_PROGRAM, "of this drawing only"))
     return Ask("INTO WHICH PROGRAM?", lines, answers, safe=ADD)
 
 

@@ -387,10 +387,10 @@ class _Reader:
         tool = entity.construction_tool()
         if not entity.control_point_count():
             if entity.closed and not np.allclose(entity.fit_points[0], entity.fit_points[-1]):
-                self.notes["A closed SPLINE of fit points alone is skipped. Export it with control points."] += 1
+                self.notes["A closed SPLINE with fit points only is skipped. Export it with control points."] += 1
                 self.skipped["SPLINE"] += 1
                 return
-            self.notes["A SPLINE has fit points alone: the curve through them is calculated."] += 1
+            self.notes["A SPLINE has fit points only: the curve through them is calculated."] += 1
         points = [_moved(point, matrix) for point in tool.control_points]
         heights = [point.z for point in points]
         self._level(min(heights), max(heights))

@@ -430,7 +430,7 @@ def spline(*points: tuple[float, float], fit: bool = False, closed: bool = False
 
 def test_a_spline_of_fit_points_is_interpolated_and_reported() -> None:
     data = spline((0, 0), (10, 5), (20, 0), (30, 5), fit=True)
-    assert read(data).notes == ("A SPLINE has fit points alone: the curve through them is calculated.",)
+    assert read(data).notes == ("A SPLINE has fit points only: the curve through them is calculated.",)
     curve = max(listed(data).contours, key=lambda contour: contour.length)
     ends = {tuple(round(value, 6) for value in point) for point in (curve.start, curve.pieces[-1].end)}
     assert ends == {(0.0, 0.0), (30.0, 5.0)}
@@ -438,7 +438,7 @@ def test_a_spline_of_fit_points_is_interpolated_and_reported() -> None:
 
 def test_a_closed_spline_of_fit_points_is_skipped_and_reported() -> None:
     drawing = read(spline((0, 0), (10, 5), (20, 0), (10, -5), fit=True, closed=True))
-    assert drawing.notes == ("A closed SPLINE of fit points alone is skipped. Export it with control points.",)
+    assert drawing.notes == ("A closed SPLINE with fit points only is skipped. Export it with control points.",)
     assert drawing.skipped == {"SPLINE": 1}
 
 
