@@ -74,9 +74,8 @@ def _links_passes(path: Path, begin: int, rows: RowRange) -> bool:
 
     Before the arc out, a few of the rows may run along the first pass again, which begins at row `begin`.
     """
-    first, last = rows
-    while first < min(last, rows[0] + MAX_LEAD_MOVES) and _runs_along(path, first, begin + first - rows[0]):
-        first += 1
+    last = rows[1]
+    first = rows[0] + _running_along(path, rows[0], begin, min(last - rows[0], MAX_LEAD_MOVES))
     if first == last or not _joins_by_arcs(path, (first, last)):
         return False
     if np.abs(path.sweeps[[first, last - 1]]).max() > pi + MAX_TANGENT_ANGLE:
@@ -424,20 +423,20 @@ def _encloses(sums: Floats, rows: RowRange) -> bool:
 def _end_of_overlap(path: Path, rows: RowRange) -> int:
     """Return the first row after a closed run that does not run along its beginning again."""
     first, last = rows
-    after = last
-    while after < len(path) and after - last < last - first and _runs_along(path, after, first + after - last):
-        after += 1
-    return after
+    return last + _running_along(path, last, first, min(len(path) - last, last - first))
 
 
-def _runs_along(path: Path, row: int, other: int) -> bool:
-    """True if a piece runs along another one from its start, and is no longer than that one."""
-    apart = [path.points[row] - path.points[other]]
-    if path.turns[row]:
-        apart.append(path.centers[row] - path.centers[other])
-    same = bool(path.turns[row] == path.turns[other] and np.abs(apart).max() <= CLOSED)
-    along = float(path.start_directions[row] @ path.start_directions[other]) > cos(MAX_RETRACE_ANGLE)
-    return same and along and float(path.lengths[row]) <= float(path.lengths[other]) + CLOSED
+def _running_along(path: Path, row: int, other: int, most: int) -> int:
+    """Return how many pieces from a row on, `most` at most, run along those from the other row on.
+
+    Such a piece starts where the other one does, goes the same way, and is no longer than that one.
+    """
+    later, earlier = path.part(row, row + most), path.part(other, other + most)
+    apart = np.maximum(np.abs(later.starts - earlier.starts), np.abs(later.centers - earlier.centers)).max(axis=1)
+    same = (later.turns == earlier.turns) & (apart <= CLOSED)
+    same &= (later.start_directions * earlier.start_directions).sum(axis=1) > cos(MAX_RETRACE_ANGLE)
+    same &= later.lengths <= earlier.lengths + CLOSED
+    return most if same.all() else int(same.argmin())
 
 
 def _open(rows: RowRange) -> list[RowRange]:
