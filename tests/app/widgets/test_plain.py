@@ -29,3 +29,5 @@ async def test_brackets_in_a_message_stay() -> None:
         await pilot.pause()
         [toast] = program.screen.query("Toast")
         assert "c[/d]a.toml" in str(toast.render())
+        # as QUIT does: later results from threads are dropped
+        program.exit()
