@@ -52,8 +52,10 @@ class Tally:
         self.lost += other.lost
 
     def lose(self, part: Part, found: object) -> None:
-        """Tell what is missing."""
-        self.lost.append(f"{part.file.name}, kill {self.kills}: {part.missing(found)}")
+        """Tell what is missing, and which of the typed states came back instead of the acknowledged one or a later."""
+        same = [index for index, state in enumerate(part.states) if part.content(state.work) == found]
+        which = f"state {same} came back, {part.acknowledged} of {len(part.states) - 1} was acknowledged by"
+        self.lost.append(f"{part.file.name}, kill {self.kills}: {part.missing(found)}\n{which}\n{part.screen}")
 
 
 def type_until_killed(part: Part, terminal: Terminal, chance: random.Random, tally: Tally) -> None:

@@ -65,12 +65,13 @@ class State:
 class Part:
     """One document on its way through many crashes: its file, and its states since the start of the program.
 
-    `acknowledged` is the index of the last state that the screen of the program had shown.
+    `acknowledged` is the index of the last state that the `screen` of the program had shown.
     """
 
     file: Path
     states: list[State] = field(default_factory=list)
     acknowledged: int = 0
+    screen: str = ""
 
     def possible(self) -> list[Work]:
         """What may come back."""
@@ -80,7 +81,9 @@ class Part:
         """The first state from the last acknowledged one on that the screen may be showing."""
         for index in range(self.acknowledged, len(self.states)):
             if self.states[index].shown(text):
-                self.acknowledged = max(self.acknowledged, index if self.states[index].sure else index - 1)
+                last = index if self.states[index].sure else index - 1
+                if last > self.acknowledged:
+                    self.acknowledged, self.screen = last, text
                 return
 
     # ---- what each kind of document has
