@@ -90,12 +90,13 @@ class ScreenServer(Server):
         """End all pages."""
         await self.pages.end()
 
-    async def handle_index(self, request: web.Request) -> Any:  # noqa: ANN401  # a template's values or its response
+    async def handle_index(self, request: web.Request) -> web.StreamResponse:
         """Return the page; refuse it if there is no more room."""
         if self.pages.full:
             raise web.HTTPServiceUnavailable(text=FULL_TEXT)
-        answer: Any = await super().handle_index(request)
-        answer.text = adapted(answer.text, self.public_url, request.headers.get("Host", ""))
+        answer = await super().handle_index(request)
+        assert isinstance(answer, web.Response)
+        answer.text = adapted(answer.text or "", self.public_url, request.headers.get("Host", ""))
         return answer
 
     async def handle_websocket(self, request: web.Request) -> web.WebSocketResponse:

@@ -74,7 +74,7 @@ def person(owner: Owner) -> str:
 
 def held_sentence(owner: Owner, today: str) -> str:
     """Return the sentence that says who has a document open, and since when."""
-    since = f" since {times.short(owner.since, today)}" if owner.since else ""
+    since = f" since {times.in_words(owner.since, today)}" if owner.since else ""
     return f"{person(owner)} has had this program open{since}."
 
 
@@ -209,7 +209,7 @@ def unsaved_work(
     name = "No name" if path is None else printable(path.name)
     by = "" if (owner.user, owner.host) == (me.user, me.host) else f" by {person(owner)}"
     edits = f"{journal.edits} edit{'' if journal.edits == 1 else 's'}"
-    lines = [f"{name}{by}, {times.short(journal.time, today)}, {edits}."]
+    lines = [f"{name}{by}, {times.in_words(journal.time, today)}, {edits}."]
     if path is not None and document.file.stamp is None and os.path.lexists(path):
         lines.append(f"{printable(path.name)} itself cannot be read; it stays as it is.")
     elif path is not None and document.kind is Kind.NC and document.file.stamp is None:
@@ -238,7 +238,7 @@ def _written_since(document: Document, journal: Journal) -> bool:
 
 def unreadable_work(document: Document, path: Path, left: Unreadable, today: str) -> Ask:
     """Report unsaved work that cannot be read, so that nobody overlooks it."""
-    who, when = printable(left.user), times.short(left.time, today)
+    who, when = printable(left.user), times.in_words(left.time, today)
     name = UNNAMED_PROGRAM if document.file.path is None else printable(document.file.path.name)
     if left.what:
         lines = [f"In place of the unsaved work on {name} there is {left.what}."]

@@ -401,7 +401,7 @@ class DocumentService:
             if not self._is_mine(path, journal):
                 return set_aside(path, "kept")
             if alive(journal.head.owner):
-                return set_aside(path, f"theirs-{times.stamp(self.clock())}-at-{path.stat().st_size}")
+                return set_aside(path, f"theirs-{times.for_file_name(self.clock())}-at-{path.stat().st_size}")
             return set_aside(path, "discarded")
         except PermissionError:
             # the folder forbids renaming: this journal stays, and the next one goes elsewhere
@@ -629,7 +629,7 @@ class DocumentService:
         now = stamp_of_data(data, status.st_mtime_ns)
         if then is not None and now.same_content(then):
             return None
-        written = times.short(times.of(now.changed), today)
+        written = times.in_words(times.of_file(now.changed), today)
         return questions.changed_meanwhile(document, written, copy, readable=_readable(document, data))
 
     def _write_file(
@@ -701,7 +701,7 @@ class DocumentService:
 
 def free_copy_name(path: Path, whose: str, today: str) -> Path:
     """Return a free name such as `part.mine-2025-03-04-140509.toml`."""
-    name = f"{path.stem}.{whose}-{times.stamp(today)}"
+    name = f"{path.stem}.{whose}-{times.for_file_name(today)}"
     free, number = path.with_name(f"{name}{path.suffix}"), 1
     while os.path.lexists(free):
         number += 1
@@ -749,7 +749,7 @@ def _leads_elsewhere(path: Path) -> bool:
 
 def _kept_for(user: str, time: str, path: Path, today: str) -> str:
     """Return the sentence for users who are not asked about the work."""
-    when = times.short(time, today)
+    when = times.in_words(time, today)
     return f"Unsaved work of {printable(user)}, {when}, is kept in {whole_name(path)}; Ctrl+O lists it."
 
 

@@ -12,7 +12,7 @@ def now() -> str:
     return datetime.now().astimezone().isoformat(timespec="seconds")
 
 
-def of(nanoseconds: int) -> str:
+def of_file(nanoseconds: int) -> str:
     """Return a file's time, given in nanoseconds since 1970; empty if it is out of range."""
     try:
         return datetime.fromtimestamp(nanoseconds / 1e9).astimezone().isoformat(timespec="seconds")
@@ -20,7 +20,7 @@ def of(nanoseconds: int) -> str:
         return ""
 
 
-def short(text: str, today: str) -> str:
+def in_words(text: str, today: str) -> str:
     """Return `12:32 today`, or `3 May 2025 12:32` for another day; the text itself if it cannot be read."""
     try:
         time, day = datetime.fromisoformat(text), datetime.fromisoformat(today)
@@ -31,6 +31,6 @@ def short(text: str, today: str) -> str:
     return f"{time.day} {time:%b %Y %H:%M}"
 
 
-def stamp(text: str) -> str:
+def for_file_name(text: str) -> str:
     """Return a time as part of a file's name, such as `2025-03-04-140509`."""
     return "".join(character for character in text[:19].replace("T", "-") if character.isdigit() or character == "-")

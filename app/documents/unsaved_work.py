@@ -41,7 +41,7 @@ def state_folder() -> Path:
 def journal_place(file: Path | None, me: Owner, state: Path) -> Path:
     """Return the path of the journal for work on a file, or for work without a file."""
     if file is None:
-        return state / f"unnamed-{me.host}-{me.pid}-{times.stamp(me.since)}{JOURNAL_SUFFIX}"
+        return state / f"unnamed-{me.host}-{me.pid}-{times.for_file_name(me.since)}{JOURNAL_SUFFIX}"
     adjacent = journal_path(file)
     return adjacent if os.access(adjacent.parent, os.W_OK) else elsewhere(file, state)
 
@@ -210,7 +210,7 @@ def unreadable(path: Path) -> Unreadable | None:
         status = path.stat()
     except OSError:
         return None
-    user, time = login(status.st_uid), times.of(status.st_mtime_ns)
+    user, time = login(status.st_uid), times.of_file(status.st_mtime_ns)
     return Unreadable(user, time, hidden, status.st_uid == os.getuid(), what, owner)
 
 
@@ -238,7 +238,7 @@ class KeptCopy:
 
     def sentence(self, today: str) -> str:
         """Describe the copy for the operator."""
-        return f"Unsaved work on {self.name}, {self.word} {times.short(self.time, today)}."
+        return f"Unsaved work on {self.name}, {self.word} {times.in_words(self.time, today)}."
 
 
 def kept_copies(folder: Path, state: Path) -> list[KeptCopy]:
@@ -246,7 +246,7 @@ def kept_copies(folder: Path, state: Path) -> list[KeptCopy]:
     dated = [entry for place in dict.fromkeys((folder, state)) for entry in _set_aside_in(place, state)]
     listed = sorted(((time, path) for time, path in dated if _is_listed(path, folder, state)), reverse=True)
     return [
-        KeptCopy(path, KEPT_COPY_WORDS[_why(path)], times.of(time), plain(_file_name(path)))
+        KeptCopy(path, KEPT_COPY_WORDS[_why(path)], times.of_file(time), plain(_file_name(path)))
         for time, path in listed[:MAX_KEPT_COPIES]
     ]
 
