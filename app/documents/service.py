@@ -105,7 +105,7 @@ class Saved(Generic[AnyDocument]):
 
 @dataclass(slots=True)
 class _OpenDocument:
-    """One open document as it was last entry, with its journal and its lock.
+    """One open document as it was last kept, with its journal and its lock.
 
     `rewrite`: the journal must be rewritten from the current work.  `failing`: the last edit is not on disk.  `warned`:
     the operator knows that somebody has taken the document over.  `away`: the operator knows that the journal is not

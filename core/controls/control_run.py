@@ -22,7 +22,7 @@ MAX_ALIKE: Final = 3
 LIMIT_RULES: Final = frozenset({"LIMIT", "FN-ENDLESS"})
 """The rules that end a run because it repeats too much to follow."""
 
-NOT_RUN_TEXT: Final = "The lines from here on stand behind the end of the program and were not run. Check them."
+NOT_RUN_TEXT: Final = "The lines from here on come after the end of the program and were not run. Check them."
 
 
 @dataclass(frozen=True, slots=True)

@@ -144,7 +144,7 @@ class MacroFlow(Flow):
         self.no_point: list[tuple[str, int, int]] = []
         self.rows_run_again = 0
         self.rows_without_movement = 0
-        self.closest: dict[tuple[int, int], float] = {}
+        self.least_of_run: dict[tuple[int, int], float] = {}
         self.tape_length = 0
         kept, self.line_before, self.unread_line = _between_percents(lines)
         self._append(kept, 1)
@@ -294,9 +294,9 @@ class MacroFlow(Flow):
         call = self.calls[-1]
         for index, difference in enumerate(differences):
             condition = (row, index)
-            if difference < self.closest.get(condition, inf):
+            if difference < self.least_of_run.get(condition, inf):
                 # an exit in a subprogram also ends the loops of its callers
-                self.closest[condition] = difference
+                self.least_of_run[condition] = difference
                 for caller in self.calls[:-1]:
                     caller.rows_without_progress = 0
             least = call.least_differences.get(condition)

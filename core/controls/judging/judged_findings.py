@@ -320,8 +320,8 @@ def _over_run(over_run: OverRun, surface: Path) -> Finding:
         text = "Over-run at X {x} Y {y}: the ends are lead-in and lead-out."
         return Finding("OVER_RUN", Severity.INFO, text, at=over_run.at, line=first_line(surface))
     length, line = max(over_run.lead_in, over_run.lead_out), line_of(over_run.last_number)
-    text = "The contour begins on this line; {value} behind that is taken for lead-out. Check where it begins."
+    text = "The contour begins on this line. The last {value} is taken for lead-out. Check where it begins."
     if over_run.lead_in > over_run.lead_out:
         line = line_of(over_run.first_number)
-        text = "The contour ends on this line; {value} before that is taken for lead-in. Check where it ends."
+        text = "The contour ends on this line. The first {value} is taken for lead-in. Check where it ends."
     return Finding("OVER_RUN", Severity.WARNING, text, at=over_run.at, value=length, line=line)

@@ -95,7 +95,7 @@ def test_lines_after_the_end_are_reported(control: str) -> None:
     assert lines_and_ends(run) == [(1.0, 0.0)]
     (message,) = findings_of(run, "NOT_RUN")
     assert (message.severity, message.line) == (Severity.WARNING, 6)
-    assert message.text == "The lines from here on stand behind the end of the program and were not run. Check them."
+    assert message.text == "The lines from here on come after the end of the program and were not run. Check them."
 
 
 @pytest.mark.parametrize("control", ["fanuc:a", "haas:a", "linuxcnc", "nine-series"])

@@ -479,8 +479,18 @@ def test_a_place_in_another_plane_names_the_axes_of_the_plane() -> None:
 @pytest.mark.parametrize(
     ("side", "corners", "line", "words"),
     [
-        ("G42", ((0, 15), (20, 0), (20, 20), (0, 20), (0, 0)), 8, "The contour begins on this line; {value} behind"),
-        ("G41", ((0, 0), (0, 20), (20, 20), (20, 0), (0, 15)), 5, "The contour ends on this line; {value} before"),
+        (
+            "G42",
+            ((0, 15), (20, 0), (20, 20), (0, 20), (0, 0)),
+            8,
+            "The contour begins on this line. The last {value} is taken for lead-out.",
+        ),
+        (
+            "G41",
+            ((0, 0), (0, 20), (20, 20), (20, 0), (0, 15)),
+            5,
+            "The contour ends on this line. The first {value} is taken for lead-in.",
+        ),
     ],
 )
 def test_a_contour_whose_end_is_in_the_middle_of_a_wall_may_be_mistyped(
