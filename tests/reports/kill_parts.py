@@ -16,7 +16,7 @@ from app.documents.nc_text import NcText
 from app.documents.programs import empty_program
 from app.file_actions import session_of
 from app.screens.contour import NEW_SEGMENTS
-from app.screens.contour_cells import fields_at, value_at
+from app.screens.contour_cells import RIGHT_COLUMN, fields_at, form_at, value_at
 from app.session.session import Session
 from core.program.edit import Edited, FormPlace, Refused, delete_segment, insert_segment, is_empty, type_field
 from core.program.fields import read_typed
@@ -192,11 +192,11 @@ class ContourPart(Part):
         self._take(self.session.without_empty())
 
     def _number(self, chance: random.Random, text: str) -> list[str]:
-        """A text into a field of START or of the last segment."""
+        """A text into a field of the left column before SOLUTION, which comes and goes and would take the digits."""
         last = len(self.session.block.segments)
         on_start = last == 0 or chance.random() < 0.5
         session = self._at(0 if on_start else last)
-        fields = fields_at(session)[:7]
+        fields = [each for each in fields_at(session) if each.name not in RIGHT_COLUMN[form_at(session)]]
         index = chance.choice([at for at, each in enumerate(fields) if each.kind not in (Kind.CHOICE, Kind.TEXT)])
         name = fields[index].name
         typed = read_typed(text, fields[index], session.program.unit)
