@@ -170,11 +170,11 @@ class Nearest:
 
 def nearest(pairs: Pairs, index: Rows, points: Points) -> Nearest:
     """Find the other path's pieces nearest to these points, each on piece `index`; ties within ON_PATH included."""
-    begins = pairs.begins
-    counts = begins[index + 1] - begins[index]
+    begins = pairs.i.searchsorted(index)
+    counts = pairs.i.searchsorted(index, side="right") - begins
     starts = counts.cumsum() - counts
     k = np.repeat(np.arange(len(index)), counts)
-    j = pairs.j[np.arange(len(k)) + (begins[index] - starts)[k]]
+    j = pairs.j[np.arange(len(k)) + (begins - starts)[k]]
     apart = np.empty(len(k))
     for block in blocks(*[pairs.others.arcs[j]] * 2):
         apart[block] = distance(pairs.others.take(j[block]), points[k[block]])
