@@ -28,8 +28,8 @@ from app.screens.contour_cells import (
 )
 from app.screens.dialogs import ChooseLine
 from app.screens.enter_stops import next_stop, run_lacks, run_stops, unanswered
+from app.screens.field_texts import prompt_of
 from app.screens.form_screen import FormScreen
-from app.screens.values import prompt_of
 from app.session.block_findings import TO_TYPE, WAITING_CODES, Entry, block_findings, remedy
 from app.session.guide import on_form
 from app.session.messages import Sentence, Tone

@@ -7,7 +7,7 @@ from dataclasses import replace
 from types import MappingProxyType
 from typing import Final
 
-from app.screens.values import cell_of
+from app.screens.field_texts import cell_of
 from app.session.formats import counted, length
 from app.session.session import Session
 from app.widgets.field import Cell, State

@@ -7,7 +7,7 @@ from types import MappingProxyType
 from typing import Final
 
 from app.screens.contour_cells import fields_at, form_at, missing_fields, run_here, solution_here, value_at
-from app.screens.values import unusable
+from app.screens.field_texts import unusable
 from app.session.session import Session
 from core.program.fields import Field, Form
 from core.program.model import Number, Unread

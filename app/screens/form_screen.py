@@ -13,7 +13,7 @@ from textual.widgets.option_list import Option
 
 from app.screens.base import BaseScreen
 from app.screens.dialogs import ChooseLine
-from app.screens.values import prompt_of, unread_text, unusable
+from app.screens.field_texts import prompt_of, unread_text, unusable
 from app.session.messages import Sentence, Tone
 from app.widgets.field import ChoiceField, Form, NumberField
 from core.finding import Severity

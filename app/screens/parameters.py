@@ -14,8 +14,8 @@ from textual.widgets import Select
 
 from app.documents.questions import Answer
 from app.screens.dialogs import Question
+from app.screens.field_texts import cell_of
 from app.screens.form_screen import FormScreen
-from app.screens.values import cell_of
 from app.session.messages import Sentence, Tone
 from app.session.session import Session
 from app.widgets.field import Cell, ChoiceField, Form

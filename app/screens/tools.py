@@ -11,8 +11,8 @@ from textual.binding import Binding, BindingType
 from textual.containers import Horizontal, Vertical, VerticalScroll
 from textual.widgets import Static
 
+from app.screens.field_texts import cell_of, unusable
 from app.screens.form_screen import FormScreen
-from app.screens.values import cell_of, unusable
 from app.session.messages import Sentence, Tone
 from app.session.session import Session
 from app.widgets.drawing import Drawing

@@ -8,7 +8,7 @@ import pytest
 
 from app.nc_proof.screen import EDITING_PROMPT, READING_PROMPT
 from app.screens import draw, home
-from app.screens.values import prompt_of
+from app.screens.field_texts import prompt_of
 from core.program.fields import FIELDS_OF_FORM, LOOKAHEAD_PROMPT, Field
 
 ROOM = 58

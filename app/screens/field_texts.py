@@ -1,4 +1,4 @@
-"""This module turns the values of fields into texts and cells, and explains unusable ones."""
+"""This module gives the texts of a field: its value, why a value cannot be used, its prompt, and its cell in a form."""
 
 from __future__ import annotations
 
