@@ -20,8 +20,8 @@ from textual.screen import ModalScreen, Screen
 
 from app import theme
 from app.documents.document import ContourDocument, NcDocument
+from app.documents.document_service import DocumentService, Opened
 from app.documents.paths import current_folder
-from app.documents.service import DocumentService, Opened
 from app.documents.settings import SettingsFile
 from app.screens.base import HEIGHT_CLASSES, WIDTH_CLASSES, BaseScreen, OpeningScreen
 from app.screens.contour import ContourScreen

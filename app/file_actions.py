@@ -15,6 +15,7 @@ from textual import work
 
 from app.derivation_actions import DerivationActions
 from app.documents.document import AnyDocument, ContourDocument, Document, NcDocument
+from app.documents.document_service import DocumentService, Notice, Offer, Opened, Saved, Trouble
 from app.documents.files import refuse_program, write_output
 from app.documents.nc_text import NC_SUFFIXES
 from app.documents.paths import chosen, is_drawing, is_folder, program_named, short_path, typed, with_suffix, written_at
@@ -30,7 +31,6 @@ from app.documents.questions import (
     leaving,
     name_of,
 )
-from app.documents.service import DocumentService, Notice, Offer, Opened, Saved, Trouble
 from app.documents.settings import Settings, SettingsFile
 from app.documents.time_limits import Disk
 from app.documents.unsaved_work import file_of_copy

@@ -11,10 +11,10 @@ from typing import TYPE_CHECKING, Any
 
 from app.cli.shell import NOTHING_ASKED, STATUS_UNUSABLE, TerminalOptions, say
 from app.documents.document import ContourDocument
+from app.documents.document_service import DocumentService, Notice, Opened, Trouble
 from app.documents.nc_text import NC_SUFFIXES
 from app.documents.paths import is_drawing, program_named
 from app.documents.programs import empty_program
-from app.documents.service import DocumentService, Notice, Opened, Trouble
 from app.documents.settings import SettingsFile, load_settings, settings_file
 from app.documents.time_limits import EXIT_SECONDS
 from core.program.file.read import StoreError

@@ -12,11 +12,11 @@ from textual.widgets import Static
 
 from app.app import CutcompApp
 from app.documents import times
+from app.documents.document_service import DocumentService, Opened
 from app.documents.files import load
 from app.documents.folder_list import Facts
 from app.documents.lock import myself
 from app.documents.programs import example
-from app.documents.service import DocumentService, Opened
 from app.documents.settings import Settings, SettingsFile, load_settings
 from app.file_actions import session_of
 from app.nc_proof.screen import ProofScreen

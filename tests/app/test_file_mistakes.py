@@ -9,9 +9,9 @@ import pytest
 from textual.widgets import DataTable, Input, Label
 
 from app.app import CutcompApp
+from app.documents.document_service import DocumentService
 from app.documents.files import load
 from app.documents.programs import example
-from app.documents.service import DocumentService
 from app.file_actions import session_of
 from app.nc_proof.screen import ProofScreen
 from app.screens.contour import ContourScreen

@@ -8,8 +8,8 @@ from contextlib import asynccontextmanager
 from pathlib import Path
 
 from app.app import CutcompApp
+from app.documents.document_service import DocumentService
 from app.documents.files import load
-from app.documents.service import DocumentService
 from app.file_actions import session_of
 from core.pipeline.derive import derive
 from core.program.model import CutterComp

@@ -18,10 +18,10 @@ import pytest
 from app.__main__ import main
 from app.cli.drawing_list import list_drawing
 from app.cli.screens import begin
+from app.documents.document_service import DocumentService, Trouble
 from app.documents.drawing_files import Worker, drawing_bytes, read_and_list
 from app.documents.files import load
 from app.documents.programs import example
-from app.documents.service import DocumentService, Trouble
 from core.importing.contours import ContourList, contours_of
 from core.importing.drawing import DrawingError
 from core.program.model import CutterComp

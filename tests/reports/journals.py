@@ -16,9 +16,9 @@ from tempfile import TemporaryDirectory
 from typing import Any
 
 from app.documents.document import ContourDocument
+from app.documents.document_service import DocumentService, Opened
 from app.documents.journal_file import journal_path, lines
 from app.documents.questions import RESTORE
-from app.documents.service import DocumentService, Opened
 from app.documents.unsaved_work import file_of_copy
 from core.pipeline.fields_stage import solve_fields
 from tests.app.documents.typist import DEAD, TIME, started

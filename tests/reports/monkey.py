@@ -33,10 +33,10 @@ from textual.pilot import Pilot
 from app.app import CutcompApp
 from app.documents import programs as files
 from app.documents.document import ContourDocument
+from app.documents.document_service import DocumentService, Opened, Trouble
 from app.documents.journal import Journal, Kind
 from app.documents.lock import take
 from app.documents.nc_text import NcText
-from app.documents.service import DocumentService, Opened, Trouble
 from app.documents.settings import Settings, SettingsFile
 from app.documents.unsaved_work import unsaved_work_on
 from app.file_actions import session_of

@@ -8,7 +8,7 @@ from random import Random
 import pytest
 
 from app.app import CutcompApp
-from app.documents.service import DocumentService
+from app.documents.document_service import DocumentService
 from app.session.session import Session
 from tests.app.widget_pilot import operator
 from tests.reports import monkey

@@ -9,9 +9,9 @@ from typing import Any
 import pytest
 
 from app.cli.screens import begin
+from app.documents.document_service import DocumentService, Opened, Trouble
 from app.documents.files import load
 from app.documents.programs import example
-from app.documents.service import DocumentService, Opened, Trouble
 from core.program.file.write import dumps
 
 

@@ -92,8 +92,8 @@ def test_a_hanging_file_does_not_delay_the_others(part: Path, monkeypatch: pytes
 
 
 def test_opening_a_hanging_file_is_reported(state: Path, part: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    from app.documents import service as module
-    from app.documents.service import Trouble
+    from app.documents import document_service as module
+    from app.documents.document_service import Trouble
     from tests.app.documents.typist import service
 
     never = Event()

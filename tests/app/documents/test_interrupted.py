@@ -12,9 +12,9 @@ from typing import Any
 import pytest
 
 from app.documents import files
+from app.documents.document_service import Trouble
 from app.documents.files import temporary_path, write_data
 from app.documents.journal_file import journal_path, new_path
-from app.documents.service import Trouble
 from tests.app.documents.typist import changed_by_another, names, number_in, service, started
 
 

@@ -9,10 +9,10 @@ from pathlib import Path
 
 import pytest
 
+from app.documents.document_service import Opened, Trouble
 from app.documents.journal_file import journal_path
 from app.documents.lock import lock_path
 from app.documents.programs import example
-from app.documents.service import Opened, Trouble
 from app.documents.unsaved_work import read
 from core.units import Unit
 from tests.app.documents.test_journal_file import GONE

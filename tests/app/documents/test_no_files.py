@@ -9,11 +9,11 @@ import pytest
 
 from app.cli.control_options import bytes_of
 from app.cli.shell import Unusable
+from app.documents.document_service import Opened, Trouble
 from app.documents.drawing_files import drawing_bytes
 from app.documents.files import load, write_output
 from app.documents.journal_file import journal_path
 from app.documents.programs import is_nc
-from app.documents.service import Opened, Trouble
 from app.documents.settings import Settings, load_settings
 from app.documents.tool_tables import read_table
 from core.program.file.read import StoreError

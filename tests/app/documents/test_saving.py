@@ -11,13 +11,13 @@ import pytest
 
 from app.documents import questions
 from app.documents.document import MAX_BYTES
+from app.documents.document_service import Opened, Saved, Trouble
 from app.documents.files import load, save
 from app.documents.journal_file import journal_path
 from app.documents.lock import lock_path
 from app.documents.paths import short_path
 from app.documents.programs import empty_program, example
 from app.documents.questions import Ask
-from app.documents.service import Opened, Saved, Trouble
 from tests.app.documents.typist import (
     DEAD,
     ELSEWHERE,

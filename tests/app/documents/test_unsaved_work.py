@@ -11,11 +11,11 @@ from typing import Any
 
 import pytest
 
+from app.documents.document_service import Opened, Trouble
 from app.documents.files import load, save
 from app.documents.journal_file import JOURNAL_SUFFIX, journal_path, lines, set_aside
 from app.documents.programs import example
 from app.documents.questions import Ask
-from app.documents.service import Opened, Trouble
 from app.documents.unsaved_work import KeptCopy, file_of_copy, kept_copies, never_saved
 from tests.app.documents.typist import (
     ALIVE,
@@ -191,7 +191,7 @@ def typed_on(state: Path, file: Path, answer: str) -> None:
 
 def dead(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr("app.documents.unsaved_work.alive", lambda _: False)
-    monkeypatch.setattr("app.documents.service.alive", lambda _: False)
+    monkeypatch.setattr("app.documents.document_service.alive", lambda _: False)
 
 
 @pytest.mark.parametrize("answer", ["RESTORE", "DISCARD"])

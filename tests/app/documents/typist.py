@@ -7,9 +7,9 @@ from pathlib import Path
 from typing import Any
 
 from app.documents.document import ContourDocument, Document, FileState, NcDocument
+from app.documents.document_service import DocumentService, Notice, Offer, Opened, Saved, Trouble
 from app.documents.lock import Owner, myself
 from app.documents.questions import Ask
-from app.documents.service import DocumentService, Notice, Offer, Opened, Saved, Trouble
 from core.program.edit import FormPlace, type_field
 from core.program.model import Number, Program
 from tests.app.nc_lines import changed

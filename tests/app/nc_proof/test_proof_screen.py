@@ -13,10 +13,10 @@ from textual.events import MouseScrollUp
 from textual.widgets import Input, Label, OptionList, Static
 
 from app.app import CutcompApp
+from app.documents.document_service import DocumentService, Opened
 from app.documents.files import load
 from app.documents.nc_text import NcText
 from app.documents.programs import example
-from app.documents.service import DocumentService, Opened
 from app.file_actions import session_of
 from app.nc_proof.dialogs import CompareControls
 from app.nc_proof.listing import Listing

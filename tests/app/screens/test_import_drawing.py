@@ -14,8 +14,8 @@ from textual.widgets import DataTable, Label
 
 from app.app import CutcompApp
 from app.documents import drawing_files
+from app.documents.document_service import DocumentService
 from app.documents.programs import empty_program
-from app.documents.service import DocumentService
 from app.documents.settings import Settings, SettingsFile
 from app.file_actions import session_of
 from app.screens.dialogs import ChooseSeveral, NumberForm, Question

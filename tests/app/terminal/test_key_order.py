@@ -12,7 +12,7 @@ from textual import events
 from textual.message_pump import MessagePump
 
 from app.app import CutcompApp
-from app.documents.service import DocumentService
+from app.documents.document_service import DocumentService
 from app.file_actions import session_of
 from app.terminal import key_order
 from app.terminal.key_order import KeyOrder
