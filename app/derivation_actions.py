@@ -16,7 +16,7 @@ from textual.worker import get_current_worker
 from app.screens.base import BaseScreen
 from app.screens.contour import ContourScreen
 from app.session.derivation import advised, derived, lookahead_table
-from app.session.messages import RowsKnown, TableNoted, Tone
+from app.session.messages import TableNotesAdded, TableRowsJudged, Tone
 from app.session.session import Session
 from app.session.work import SECONDS_BEFORE_PROGRESS, Work, while_wanted
 from core.pipeline.derived import DerivedBlock
@@ -169,15 +169,15 @@ class DerivationActions(App[int]):
 
     @work(exclusive=True, group="table", description="table")
     async def _make_table_in_thread(self, block: DerivedBlock, program: Program) -> None:
-        def known(rows: tuple[Row, ...]) -> None:
-            self.post_message(RowsKnown(block, rows))
+        def report_rows(rows: tuple[Row, ...]) -> None:
+            self.post_message(TableRowsJudged(block, rows))
 
         with suppress(Stopped), self.working(self._calculation_stopped) as work:
-            self._show_table(block, await to_thread(lookahead_table, block, program, known, work))
+            self._show_table(block, await to_thread(lookahead_table, block, program, report_rows, work))
             self._advise_later()
 
-    @on(RowsKnown)
-    def _rows_known(self, message: RowsKnown) -> None:
+    @on(TableRowsJudged)
+    def _show_judged_rows(self, message: TableRowsJudged) -> None:
         """Show the values that are judged while the others are still being calculated, if that takes long."""
         if self.is_running and self.longest_work is not None and isinstance(self.screen, ContourScreen):
             self.screen.show_rows(message.block, message.rows)
@@ -188,8 +188,8 @@ class DerivationActions(App[int]):
         if not trial:
             self.shown = self.session
 
-    @on(TableNoted)
-    def _table_noted(self, message: TableNoted) -> None:
+    @on(TableNotesAdded)
+    def _show_added_notes(self, message: TableNotesAdded) -> None:
         if self.is_running:
             self._show_table(message.block, message.table)
 
@@ -257,7 +257,7 @@ class DerivationActions(App[int]):
         with suppress(Stopped):
             for noted in advised(block, program, table, check):
                 check(1.0)
-                self.post_message(TableNoted(block, noted))
+                self.post_message(TableNotesAdded(block, noted))
 
     def _uncover(self, depth: int) -> None:
         """Bring the screen at `depth` of the stack to the front; close those above it."""

@@ -23,15 +23,15 @@ def derived(program: Program, progress: Progress = silent) -> Derived:
 
 
 def lookahead_table(
-    block: DerivedBlock, program: Program, known: Callable[[tuple[Row, ...]], None], progress: Progress = silent
+    block: DerivedBlock, program: Program, report_rows: Callable[[tuple[Row, ...]], None], progress: Progress = silent
 ) -> Table | None:
     """Return the effect of every look-ahead value on a block; None if there is nothing to compensate.
 
-    Call `known` with all rows so far whenever some are complete.
+    Call `report_rows` with all rows so far whenever some are complete.
     """
     from core.pipeline.derive import look_ahead_table
 
-    return look_ahead_table(block, program, progress, known)
+    return look_ahead_table(block, program, progress, report_rows)
 
 
 def advised(block: DerivedBlock, program: Program, table: Table, progress: Progress) -> Iterator[Table]:

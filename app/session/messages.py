@@ -29,7 +29,7 @@ class Sentence(NamedTuple):
 
 
 @dataclass
-class TableNoted(Message):
+class TableNotesAdded(Message):
     """A worker has added notes to a block's look-ahead table."""
 
     block: DerivedBlock
@@ -37,7 +37,7 @@ class TableNoted(Message):
 
 
 @dataclass
-class RowsKnown(Message):
+class TableRowsJudged(Message):
     """A worker has judged some values of a block's look-ahead table; `rows` are all that are known so far."""
 
     block: DerivedBlock

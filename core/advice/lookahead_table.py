@@ -110,11 +110,11 @@ def recommended(rows: Sequence[Row]) -> int | None:
 
 
 def judge_lookaheads(
-    setup: CuttingSetup, progress: Progress = silent, known: Callable[[tuple[Row, ...]], None] | None = None
+    setup: CuttingSetup, progress: Progress = silent, report_rows: Callable[[tuple[Row, ...]], None] | None = None
 ) -> Table:
     """Make the table of a contour: a value is judged by its finish path and by the roughing passes before it.
 
-    Call `known` with all rows so far whenever some are complete.
+    Call `report_rows` with all rows so far whenever some are complete.
     """
     count = 1 + len(setup.stocks)
     shares = [part(progress, at / count, (at + 1) / count) for at in range(count)]
@@ -126,8 +126,8 @@ def judge_lookaheads(
         for verdicts in _verdicts(setup, cutter, paths, share):
             if at == count - 1:
                 rows = _rows(finish, [*passes, verdicts])
-                if known is not None:
-                    known(rows)
+                if report_rows is not None:
+                    report_rows(rows)
         passes.append(verdicts)
     return Table(rows, recommended(rows))
 

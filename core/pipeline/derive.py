@@ -172,14 +172,14 @@ def look_ahead_table(
     block: DerivedBlock,
     program: Program,
     progress: Progress = silent,
-    known: Callable[[tuple[Row, ...]], None] | None = None,
+    report_rows: Callable[[tuple[Row, ...]], None] | None = None,
 ) -> Table | None:
     """Return the table of a derived block; None for ON and while there is nothing to compensate.
 
-    Call `known` with all rows so far whenever some are complete.
+    Call `report_rows` with all rows so far whenever some are complete.
     """
     setup = cutting_setup(block, program)
-    return None if setup is None else judge_lookaheads(setup, progress, known)
+    return None if setup is None else judge_lookaheads(setup, progress, report_rows)
 
 
 def cutting_setup(block: DerivedBlock, program: Program) -> CuttingSetup | None:
