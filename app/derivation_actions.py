@@ -123,7 +123,7 @@ class DerivationActions(App[int]):
         if self._deriving is not self.session.program:
             self._deriving = None
             self.workers.cancel_group(self, "derive")
-            if not all(block.known for block in self.session.derived.blocks):
+            if not all(block.complete for block in self.session.derived.blocks):
                 self._derive(self.session.program)
 
     def _derive(self, program: Program) -> None:
@@ -162,7 +162,7 @@ class DerivationActions(App[int]):
     def _make_table(self) -> None:
         """Make the look-ahead table of the block with the cursor, if it is not known yet."""
         block, table = self.session.derived_block, self.session.table
-        if not block.known or self.stopped is block or (table and table[0] is block):
+        if not block.complete or self.stopped is block or (table and table[0] is block):
             self._advise_later()
         else:
             self._make_table_in_thread(block, self.session.program)
@@ -197,7 +197,7 @@ class DerivationActions(App[int]):
         """Note what Esc has stopped; an edit or CALCULATE starts it again."""
         block = self.session.derived_block
         self._deriving = None
-        self.stopped = block if block.known else self.session.program
+        self.stopped = block if block.complete else self.session.program
         self.say("Stopped. Any edit calculates again, or Ctrl+K and CALCULATE.", Tone.WARNING)
 
     def end_guide(self, text: str) -> None:
@@ -233,7 +233,7 @@ class DerivationActions(App[int]):
     def action_calculate(self) -> None:
         """Restart what Esc has stopped."""
         self.stopped = None
-        if self.session.derived_block.known:
+        if self.session.derived_block.complete:
             self._make_table()
         else:
             self._derive(self.session.program)

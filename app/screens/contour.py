@@ -254,13 +254,13 @@ class ContourScreen(FormScreen):
         self._show_tried(shown)
         block, unit, verdict = shown.derived_block, shown.program.unit, self.query_one(Verdict)
         before = verdict.case
-        if not block.known and before is not None and before.block.number == block.number and before.block.known:
+        if not block.complete and before is not None and before.block.number == block.number and before.block.complete:
             return
         verdict.case = Case(block, shown.lookahead_table, unit)
         self.entries = block_findings(block, shown.lookahead_table, unit)
         self.query_one(FindingsList).entries = self.entries
         self._show_lists(shown)
-        if block.known or before is not None:
+        if block.complete or before is not None:
             # skipped in the first paint, which must not load the numeric libraries
             self._show_picture(shown)
 
@@ -275,7 +275,7 @@ class ContourScreen(FormScreen):
         if not self.stands:
             return
         verdict, shown = self.query_one(Verdict), self.host.shown
-        if verdict.case is not None and not shown.derived_block.known:
+        if verdict.case is not None and not shown.derived_block.complete:
             stopped = self.host.stopped is shown.program
             verdict.case = replace(verdict.case, working=None if work is None else work.done, stopped=stopped)
 

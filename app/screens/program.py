@@ -93,7 +93,7 @@ class ProgramScreen(BaseScreen):
         self.query_one("#block-count", Label).update(counted(len(session.program.blocks), "block"))
         self.query_one("#program-file", Label).update(session.file_label)
         self._draw()
-        if all(block.known for block in session.derived.blocks):
+        if all(block.complete for block in session.derived.blocks):
             self._time(session.derived)
 
     @work(exclusive=True, group="times", description="times")
@@ -195,7 +195,7 @@ class ProgramScreen(BaseScreen):
 def _row(block: DerivedBlock, marks: Marks) -> tuple[Content, ...]:
     tool = f"{block.block.tool.value:g}" if isinstance(block.block.tool, Number) else "?"
     texts = (str(block.number), "MILL CONTOUR", str(block.block.cutter_comp), tool, str(len(block.block.segments)))
-    verdict = verdict_word(outcome_of(block), marks) if block.known else Content("...")
+    verdict = verdict_word(outcome_of(block), marks) if block.complete else Content("...")
     return (*(Content(text) for text in texts), verdict)
 
 

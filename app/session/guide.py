@@ -144,7 +144,7 @@ def _arrow(names: Sequence[str], at: str, there: str) -> str:
 
 def _finished(session: Session) -> str:
     block = session.derived.block(1)
-    if not block.known:
+    if not block.complete:
         return "The contour is closed. The verdict is being calculated."
     if block.errors:
         return "The contour stands, but something is against it: F10 lists it, Ctrl+Z takes back what made it."

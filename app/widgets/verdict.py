@@ -142,7 +142,7 @@ def _effect(case: Case) -> str:
     """Return the worst of what the path does."""
     judgment = case.judgment
     if judgment is None:
-        return "  calculating" if not case.block.known else ""
+        return "  calculating" if not case.block.complete else ""
     if judgment.gouges:
         return f" gouges {_segments(segment_numbers(gouge.surface_number for gouge in judgment.gouges))}"
     if judgment.wrong_side:
@@ -261,7 +261,7 @@ def _stopped_short(case: Case) -> bool:
 
 def _first_error(case: Case, marks: Marks) -> Content:
     """Return as much of the first error's sentence as fits; F10 lists it in full."""
-    if not case.block.known or not case.block.errors:
+    if not case.block.complete or not case.block.errors:
         return Content("")
     first = next((error for error in case.block.errors if error.code not in TO_TYPE), case.block.errors[0])
     role = "$c-warn" if first.code in TO_TYPE else "$c-err"

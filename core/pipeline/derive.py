@@ -40,10 +40,10 @@ from core.units import Kind, decimals_shown, to_mm
 from core.verify.judge import judge_together
 from core.verify.verdict import Verdict
 
-OUTLINED = 0.4
+SOLVED_SHARE = 0.4
 """Share of the work on a block that is done when its fields are solved."""
-JUDGED = 0.9
-"""Share of that work that is done when the block's paths are judged."""
+JUDGED_SHARE = 0.9
+"""Share of the work on a block that is done when its paths are judged."""
 
 
 def derive(program: Program, progress: Progress = silent) -> Derived:
@@ -56,12 +56,12 @@ def derive(program: Program, progress: Progress = silent) -> Derived:
 def derive_block(program: Program, number: int, progress: Progress = silent) -> DerivedBlock:
     """Derive block `number`, counted from 1."""
     block = solve_block_fields(program, number)
-    progress(OUTLINED)
+    progress(SOLVED_SHARE)
     if not block.solved.pieces or block.radius is None:
-        return replace(block, known=True)
-    work = _work(block, program, part(progress, OUTLINED, JUDGED))
-    progress(JUDGED)
-    return _with_findings(block, work, program)
+        return replace(block, complete=True)
+    paths = _block_paths(block, program, part(progress, SOLVED_SHARE, JUDGED_SHARE))
+    progress(JUDGED_SHARE)
+    return _with_findings(block, paths, program)
 
 
 def with_better_paths(derived: Derived) -> Derived:
@@ -72,17 +72,17 @@ def with_better_paths(derived: Derived) -> Derived:
 
 def better_path(block: DerivedBlock) -> tuple[Finding, ...]:
     """Return how far the control's path is from the best one, if the control's path is the one posted."""
-    work = block.paths
-    if work is None or work.compensated is None or work.best is not None or block.side is None:
+    paths = block.paths
+    if paths is None or paths.compensated is None or paths.best is not None or block.side is None:
         return ()
-    best = best_path(work.surface, block.side, work.compensated.radius, closed=block.solved.closed)
-    findings = better_path_findings(best, separation(work.compensated.path, best, work.compensated.radius))
+    best = best_path(paths.surface, block.side, paths.compensated.radius, closed=block.solved.closed)
+    findings = better_path_findings(best, separation(paths.compensated.path, best, paths.compensated.radius))
     # the corner at START belongs to the last segment
-    last = float(work.surface.numbers[-1])
+    last = float(paths.surface.numbers[-1])
     return tuple(item if item.segment is None else replace(item, segment=min(item.segment, last)) for item in findings)
 
 
-def _work(block: DerivedBlock, program: Program, progress: Progress) -> BlockPaths:
+def _block_paths(block: DerivedBlock, program: Program, progress: Progress) -> BlockPaths:
     """Return the surface of a block, its paths and the verdict on them."""
     numbers, pieces = zip(*block.solved.pieces, strict=True)
     surface = Path.from_pieces(pieces, numbers)
@@ -143,28 +143,28 @@ def _rough(block: DerivedBlock, contour: _Contour, progress: Progress) -> tuple[
     return tuple(passes)
 
 
-def _with_findings(block: DerivedBlock, work: BlockPaths, program: Program) -> DerivedBlock:
+def _with_findings(block: DerivedBlock, paths: BlockPaths, program: Program) -> DerivedBlock:
     """Add a block's paths and their findings, and whatever else forbids posting, such as a SPEED of 0."""
     assert block.radius is not None
     closed = block.solved.closed
     back: tuple[Finding, ...] = ()
     trouble: tuple[Finding, ...] = ()
-    if work.verdict is not None:
+    if paths.verdict is not None:
         # a typing mistake comes before its consequences
-        back = turning_back(work.surface, closed=closed)
-        trouble = (*path_findings(work), *size_warning(block.radius, work.surface))
+        back = turning_back(paths.surface, closed=closed)
+        trouble = (*path_findings(paths), *size_warning(block.radius, paths.surface))
         if block.side is not None:
-            trouble += tight_arcs(work.verdict, work.surface, block.side, block.radius)
-    if len(work.rough) > MAX_SIDE_PASSES:
+            trouble += tight_arcs(paths.verdict, paths.surface, block.side, block.radius)
+    if len(paths.rough) > MAX_SIDE_PASSES:
         text = f"MAX OFFSET makes more than {MAX_SIDE_PASSES} side passes. "
         text += "Reduce it or POCKET OVERLAP, or use a larger tool."
         trouble += (Finding("SIDE_PASSES", Severity.ERROR, text, field="max_offset"),)
     if block.solved.whole:
-        trouble += open_finding(work.surface, 2 * block.radius, closed=closed)
+        trouble += open_finding(paths.surface, 2 * block.radius, closed=closed)
     findings = by_severity((*back, *block.findings, *trouble))
-    block = replace(block, paths=work, known=True, findings=findings)
-    due = job(block, program)
-    further = (*dict.fromkeys(job_errors(due, Grid(program.unit))), *z_step_findings(z_steps(due)))
+    block = replace(block, paths=paths, complete=True, findings=findings)
+    block_job = job(block, program)
+    further = (*dict.fromkeys(job_errors(block_job, Grid(program.unit))), *z_step_findings(z_steps(block_job)))
     return replace(block, findings=by_severity((*findings, *further)))
 
 

@@ -1,4 +1,4 @@
-"""What is known of a program, block by block.  It needs no numpy, so that a first screen can do without."""
+"""Derived blocks: a program's blocks with all that follows from them.  The first paint loads this: no numpy here."""
 
 from __future__ import annotations
 
@@ -33,8 +33,9 @@ class DerivedBlock:
     """One block with everything derived from it.
 
     `radius` is the finish path's cutter radius in millimeters, None without a usable tool; `side` is None for ON.
-    `profile`: CUTTER COMP. is PROFILE LEFT or RIGHT, so that roughing comes in from MAX OFFSET.  `paths` is None until
-    they are made, and without a surface or a radius to make them of; `known` is True once that has been tried.
+    `profile`: CUTTER COMP. is PROFILE LEFT or RIGHT, so that roughing comes in from MAX OFFSET.  After the first stage
+    only fields and look-ahead are calculated, and `complete` is False.  In a complete block `paths` is None if there is
+    no surface or no radius.
     """
 
     number: int
@@ -45,13 +46,13 @@ class DerivedBlock:
     profile: bool
     radius: float | None
     paths: BlockPaths | None
-    known: bool
+    complete: bool
     findings: tuple[Finding, ...]
 
     @property
     def postable(self) -> bool:
-        """True if the block is derived, has paths, and has no finding that is an error."""
-        return self.known and self.paths is not None and not self.errors
+        """True if the block is complete, has paths, and has no finding that is an error."""
+        return self.complete and self.paths is not None and not self.errors
 
     @property
     def errors(self) -> tuple[Finding, ...]:

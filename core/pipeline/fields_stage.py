@@ -45,7 +45,7 @@ def solve_block_fields(program: Program, number: int) -> DerivedBlock:
         profile=block.cutter_comp in (CutterComp.PROFILE_LEFT, CutterComp.PROFILE_RIGHT),
         radius=None if diameter is None else diameter / 2,
         paths=None,
-        known=False,
+        complete=False,
         findings=(
             *shared_findings(program),
             *solved.every_finding,

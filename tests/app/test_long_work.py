@@ -88,7 +88,7 @@ async def test_a_long_derivation_shows_its_progress_and_escape_stops_it(monkeypa
         slow.go.set()
         user.app.action_calculate()
         await user.settle()
-        assert user.session.derived_block.known
+        assert user.session.derived_block.complete
         assert "stopped" not in str(verdict.border_title)
 
 
@@ -100,7 +100,7 @@ async def test_an_abandoned_half_typed_number_leaves_the_program_calculated(monk
         await user.send("down", "4")
         slow.go.set()
         await user.press("tab", "ctrl+z", "ctrl+z")
-        assert user.session.derived_block.known
+        assert user.session.derived_block.complete
         assert user.app.shown is user.session
 
 

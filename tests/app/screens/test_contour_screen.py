@@ -57,7 +57,7 @@ async def test_undo_and_redo_move_the_cursor_to_what_they_change(user: Operator)
     await user.press("pagedown", "tab", "'5.5", "enter")
     assert user.session.block.segments[0].x_end == Number(5.5)
     assert (user.value("x_end"), user.at) == ("5.5000", "y_end")
-    assert user.session.derived_block.known
+    assert user.session.derived_block.complete
     await user.press("pagedown", "pagedown", "ctrl+z")
     assert user.session.place == FormPlace(1, 1)
     assert (user.at, user.value("x_end")) == ("x_end", "4.0000")

@@ -75,7 +75,7 @@ def test_solved_fields_give_the_look_ahead_but_no_path():
     (result,) = solve_fields(program(block(OUTSIDE_SQUARE, CutterComp.RIGHT))).blocks
     assert result.lookahead.value == 3
     assert result.paths is None
-    assert not result.known
+    assert not result.complete
     assert not result.postable
 
 
