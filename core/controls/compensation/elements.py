@@ -55,8 +55,8 @@ def line_element(
     """Return a line; height, feed and source are optional."""
     dx, dy = end[0] - start[0], end[1] - start[1]
     size = hypot(dx, dy)
-    way = (dx / size, dy / size) if size else (0.0, 0.0)
-    return Element(start, end, start, 0, way, way, start_height, end_height, rapid, feed, line, column)
+    direction = (dx / size, dy / size) if size else (0.0, 0.0)
+    return Element(start, end, start, 0, direction, direction, start_height, end_height, rapid, feed, line, column)
 
 
 def arc_element(
@@ -77,9 +77,9 @@ def tangent(at: Point, center: Point, turn: int) -> Point:
     return -turn * dy / size, turn * dx / size
 
 
-def offset_point(at: Point, way: Point, offset: float) -> Point:
+def offset_point(at: Point, direction: Point, offset: float) -> Point:
     """Return the offset point of `at`, which is `offset` to the left of a direction."""
-    return at[0] - offset * way[1], at[1] + offset * way[0]
+    return at[0] - offset * direction[1], at[1] + offset * direction[0]
 
 
 def offset_start(element: Element, offset: float) -> Point:
@@ -107,16 +107,16 @@ def turn_angle(first: Element, second: Element) -> float:
     return atan2(ax * by - ay * bx, ax * bx + ay * by)
 
 
-def miter(corner: Point, way: Point, angle: float, offset: float) -> Point:
+def miter(corner: Point, direction: Point, angle: float, offset: float) -> Point:
     """Return M, where the offsets of two straight directions meet outside the corner; `angle` is from `turn_angle`."""
-    x, y = offset_point(corner, way, offset)
+    x, y = offset_point(corner, direction, offset)
     reach = abs(offset) * tan(abs(angle) / 2)
-    return x + reach * way[0], y + reach * way[1]
+    return x + reach * direction[0], y + reach * direction[1]
 
 
-def point_along(at: Point, way: Point, distance: float) -> Point:
+def point_along(at: Point, direction: Point, distance: float) -> Point:
     """Return the point `distance` further along a direction."""
-    return at[0] + distance * way[0], at[1] + distance * way[1]
+    return at[0] + distance * direction[0], at[1] + distance * direction[1]
 
 
 def offset_radius(element: Element, offset: float) -> float:
@@ -187,5 +187,5 @@ def runs_back(element: Element, start: Point, end: Point) -> bool:
         cut_before = _trim(element.start, start, element.center, element.turn)
         cut_after = _trim(element.end, end, element.center, -element.turn)
         return element_sweep(element) - cut_before - cut_after < -SAME_DIRECTION
-    way = element.start_direction
-    return (end[0] - start[0]) * way[0] + (end[1] - start[1]) * way[1] < -SAME_DIRECTION
+    direction = element.start_direction
+    return (end[0] - start[0]) * direction[0] + (end[1] - start[1]) * direction[1] < -SAME_DIRECTION

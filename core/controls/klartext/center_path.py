@@ -248,18 +248,18 @@ class CenterPathRecorder:
         if self.entry:
             self._stop("HE7", NO_CONTOUR, self.entry)
 
-    def _arrive(self, entry: ProgrammedStep, goal: Point, way: Point) -> None:
-        """Run the entry to the point square to the first element's start; `way` is the element's direction there."""
+    def _arrive(self, entry: ProgrammedStep, goal: Point, direction: Point) -> None:
+        """Run the entry to the point square to the first element's start, where the element has this direction."""
         if entry.lead is None:
             self.record.plain(entry, goal)
         else:
-            self._approach(entry, entry.lead, goal, way)
+            self._approach(entry, entry.lead, goal, direction)
         self.entry = None
         self._sink_waiting()
 
-    def _approach(self, step: ProgrammedStep, lead: Lead, goal: Point, way: Point) -> None:
+    def _approach(self, step: ProgrammedStep, lead: Lead, goal: Point, direction: Point) -> None:
         x, y, height = self.record.at(step)
-        curve = lead_curves.approach(lead, (x, y), goal, way, step.hand)
+        curve = lead_curves.approach(lead, (x, y), goal, direction, step.hand)
         if curve is None:
             self._stop("HE5", INSIDE_CIRCLE, step, lead.radius)
         depth = step.element.end_height
@@ -387,7 +387,7 @@ class CenterPathRecorder:
     def _run_along(self, steps: list[ProgrammedStep], ahead: PathAhead, path: Path) -> None:
         """Run any entry to a path computed ahead, then a part of the path."""
         if self.entry:
-            self._arrive(self.entry, ahead.start, ahead.way)
+            self._arrive(self.entry, ahead.start, ahead.direction)
         for piece, number in zip(path, path.numbers.tolist(), strict=True):
             step = steps[int(number)]
             height = step.element.end_height
@@ -418,8 +418,8 @@ def _at_its_end(element: Element) -> Element:
 def advance(element: Element, start: Point, end: Point) -> float:
     """Return the millimeters along an offset between two of its points, negative backwards, at most half a circle."""
     if not element.turn:
-        (x, y), (ex, ey), way = start, end, element.start_direction
-        return (ex - x) * way[0] + (ey - y) * way[1]
+        (x, y), (ex, ey), direction = start, end, element.start_direction
+        return (ex - x) * direction[0] + (ey - y) * direction[1]
     angle = elements.sweep(start, end, element.center, element.turn)
     return (angle - tau if angle > pi else angle) * hypot(start[0] - element.center[0], start[1] - element.center[1])
 

@@ -116,8 +116,8 @@ def _level(first: Element, second: Element) -> bool:
 
 def _lies_on(element: Element, point: Point) -> bool:
     if not element.turn:
-        (x, y), way = element.start, element.start_direction
-        along = (point[0] - x) * way[0] + (point[1] - y) * way[1]
+        (x, y), direction = element.start, element.start_direction
+        along = (point[0] - x) * direction[0] + (point[1] - y) * direction[1]
         return -JOINED <= along <= hypot(element.end[0] - x, element.end[1] - y) + JOINED
     return elements.sweep(element.start, point, element.center, element.turn) <= elements.element_sweep(element)
 

@@ -53,28 +53,28 @@ class Curve:
     turn: int
 
 
-def approach(lead: Lead, start: Point, end: Point, way: Point, hand: int) -> Curve | None:
-    """Return the approach from PS to PA', where the contour starts in direction `way`.
+def approach(lead: Lead, start: Point, end: Point, direction: Point, hand: int) -> Curve | None:
+    """Return the approach from PS to PA', where the contour starts in `direction`.
 
     `hand` is +1 with the tool on the left of the contour, -1 on the right, 0 without compensation: an LCT then has
     its circle on the side PS lies on.  Points in millimeters.  None for an LCT that starts inside its own circle.
     """
     if lead.shape is LeadShape.LT:
-        point = point_along(end, way, -lead.length)
+        point = point_along(end, direction, -lead.length)
         return Curve(point, point, 0)
     if lead.shape is LeadShape.LN:
-        point = offset_point(end, way, hand * lead.length)
+        point = offset_point(end, direction, hand * lead.length)
         return Curve(point, point, 0)
     if lead.shape is LeadShape.CT:
-        center = offset_point(end, way, hand * lead.radius)
+        center = offset_point(end, direction, hand * lead.radius)
         turn = hand if lead.radius > 0.0 else -hand
         whole = lead.angle >= tau - SAME_DIRECTION
         return Curve(end if whole else rotated(end, center, -turn * lead.angle), center, turn)
-    return _tangent_arc(lead.radius, start, end, way, hand or _side_of(start, end, way))
+    return _tangent_arc(lead.radius, start, end, direction, hand or _side_of(start, end, direction))
 
 
-def _tangent_arc(radius: float, start: Point, end: Point, way: Point, hand: int) -> Curve | None:
-    center = offset_point(end, way, hand * radius)
+def _tangent_arc(radius: float, start: Point, end: Point, direction: Point, hand: int) -> Curve | None:
+    center = offset_point(end, direction, hand * radius)
     dx, dy = start[0] - center[0], start[1] - center[1]
     distance = hypot(dx, dy)
     if distance < radius * (1.0 - MAX_ROUNDING_SHARE):
@@ -87,14 +87,14 @@ def _tangent_arc(radius: float, start: Point, end: Point, way: Point, hand: int)
     return Curve(point, center, hand)
 
 
-def _side_of(at: Point, corner: Point, way: Point) -> int:
-    return 1 if way[0] * (at[1] - corner[1]) - way[1] * (at[0] - corner[0]) >= 0.0 else -1
+def _side_of(at: Point, corner: Point, direction: Point) -> int:
+    return 1 if direction[0] * (at[1] - corner[1]) - direction[1] * (at[0] - corner[0]) >= 0.0 else -1
 
 
-def departure(lead: Lead, start: Point, end: Point, way: Point, hand: int) -> Curve | None:
-    """Return the departure from PE', where the contour ends in direction `way`, to `end`, which only LCT uses.
+def departure(lead: Lead, start: Point, end: Point, direction: Point, hand: int) -> Curve | None:
+    """Return the departure from PE', where the contour ends in `direction`, to `end`, which only LCT uses.
 
     It is the approach from `end` to PE' run backwards: the contour runs the other way with the tool on its other side.
     """
-    back = approach(lead, end, start, (-way[0], -way[1]), -hand)
+    back = approach(lead, end, start, (-direction[0], -direction[1]), -hand)
     return None if back is None else Curve(back.point, back.center, -back.turn)

@@ -28,7 +28,7 @@ class PathAhead:
 
     path: Path
     start: Point
-    way: Point
+    direction: Point
     left_out: tuple[int, ...] = ()
 
 
@@ -54,10 +54,10 @@ def path_ahead(elements: Sequence[Element], offset: float, depth: int, begin: Po
     path = compensated.path
     if not len(path):
         return Unreached(0, "the {0}-radius tool cannot reach any of this contour")
-    start, way = path[0].start, point_of_row(path.start_directions[0])
+    start, direction = path[0].start, point_of_row(path.start_directions[0])
     if bool(compensated.bridged.any()):
         row = int(path.numbers[compensated.bridged][0])
-        before = PathAhead(path.part(0, int((path.numbers < row).sum())), begin or start, way)
+        before = PathAhead(path.part(0, int((path.numbers < row).sum())), begin or start, direction)
         why = "the {0}-radius tool cannot get past this block within the blocks of LA"
         return Unreached(row, why, before)
     last, end = len(elements) - 1, path[-1].end
@@ -70,7 +70,7 @@ def path_ahead(elements: Sequence[Element], offset: float, depth: int, begin: Po
             return Unreached(0, "the {0}-radius tool has no length left for this block between its neighbors")
         start = begin
     left_out = tuple(int(number) for number in compensated.deleted.segments.tolist() if number == int(number))
-    return PathAhead(path, start, way, left_out)
+    return PathAhead(path, start, direction, left_out)
 
 
 def _contour(elements: Sequence[Element]) -> Path:

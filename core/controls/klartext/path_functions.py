@@ -226,14 +226,14 @@ def _tangent_to(state: State, block: Block, words: Words, end: list[float]) -> N
     if state.last is None or state.waiting.pending:
         text = "A tangent arc needs a contour element directly before it. Write an L or C block first, or use CR."
         state.stop("HE6", text, block)
-    start, goal, way = state.flat(state.position)[0], state.flat(end)[0], state.last.end_direction
+    start, goal, direction = state.flat(state.position)[0], state.flat(end)[0], state.last.end_direction
     dx, dy = goal[0] - start[0], goal[1] - start[1]
-    cross, chord = way[0] * dy - way[1] * dx, hypot(dx, dy)
+    cross, chord = direction[0] * dy - direction[1] * dx, hypot(dx, dy)
     if chord <= JOINED:
         state.stop("ARC", "The end point must differ from the start point.", block)
     if abs(cross) <= chord * elements.SAME_DIRECTION:
         state.stop("ARC", ONE_STRAIGHT, block)
-    center = elements.offset_point(start, way, chord * chord / (2.0 * cross))
+    center = elements.offset_point(start, direction, chord * chord / (2.0 * cross))
     _arc_to(state, block, words, end, center, 1 if cross > 0.0 else -1, state.plane)
 
 

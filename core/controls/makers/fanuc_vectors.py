@@ -369,8 +369,11 @@ def _points(joint: Joint, element: Element | None) -> list[Point]:
         if hypot(point[0] - points[-1][0], point[1] - points[-1][1]) > SAME_POINT:
             points.append(point)
     if element is not None and not element.turn and len(points) > 1 and joint.center is None:
-        (ax, ay), (bx, by), way = points[-2], points[-1], element.start_direction
-        if abs((bx - ax) * way[1] - (by - ay) * way[0]) < SAME_POINT and (bx - ax) * way[0] + (by - ay) * way[1] > 0.0:
+        (ax, ay), (bx, by), direction = points[-2], points[-1], element.start_direction
+        if (
+            abs((bx - ax) * direction[1] - (by - ay) * direction[0]) < SAME_POINT
+            and (bx - ax) * direction[0] + (by - ay) * direction[1] > 0.0
+        ):
             points.pop()
     return points
 

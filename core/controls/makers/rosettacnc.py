@@ -196,8 +196,8 @@ class NistEntry(ElementQueue, RosettaCnc):
         self.open_stretch(self.offset, element)
         self.note(element)
         angle = atan2(sy - py, sx - px) - acos(radius / length) * sign
-        way = angle - pi / 2 * sign
-        self.before = element._replace(end_direction=(cos(way), sin(way)))
+        heading = angle - pi / 2 * sign
+        self.before = element._replace(end_direction=(cos(heading), sin(heading)))
         self.straight(element, (px + radius * cos(angle), py + radius * sin(angle)))
         self.first = False
 

@@ -129,15 +129,15 @@ class PassWithLeads:
 
 @dataclass(frozen=True, slots=True)
 class PathEnd:
-    """One end of the tool's path: the point `at`, the direction `way` along the path and `off` away from the part.
+    """One end of the tool's path: the point `at`, and unit vectors: `direction` of travel, and `outward` from the part.
 
-    `corner` is the programmed point that belongs to `at`.  With a blend the tool enters and leaves along `off`.
+    `corner` is the programmed point that belongs to `at`.  With a blend the tool enters and leaves along `outward`.
     """
 
     at: Point
     corner: Point
-    way: Point
-    off: Point
+    direction: Point
+    outward: Point
     blend: float
 
 
@@ -229,7 +229,7 @@ def path_begin(compensated: Compensated) -> PathEnd:
 
 
 def path_finish(compensated: Compensated) -> PathEnd:
-    """Return where and how the tool's path ends; `way` is still the direction of travel."""
+    """Return where and how the tool's path ends."""
     return _end(compensated, compensated.whole.reversed(), compensated.lead_out.reversed(), -1)
 
 
@@ -238,16 +238,16 @@ def _end(compensated: Compensated, whole: Path, lead: Path, sense: int) -> PathE
     at, blend = point_of_row(whole.points[0]), blend_of(compensated)
     if blend:
         (cx, cy), (ex, ey) = lead.centers[0].tolist(), lead.points[1].tolist()
-        way = (sense * (cx - at[0]) / blend, sense * (cy - at[1]) / blend)
-        off = ((cx - ex) / blend, (cy - ey) / blend)
-        side = (-sense * way[0], -sense * way[1])
+        direction = (sense * (cx - at[0]) / blend, sense * (cy - at[1]) / blend)
+        outward = ((cx - ex) / blend, (cy - ey) / blend)
+        side = (-sense * direction[0], -sense * direction[1])
     else:
         dx, dy = whole.start_directions[0].tolist()
-        way = (sense * dx, sense * dy)
-        off = side = offset_point((0.0, 0.0), way, compensated.side.sign)
+        direction = (sense * dx, sense * dy)
+        outward = side = offset_point((0.0, 0.0), direction, compensated.side.sign)
         side = (-side[0], -side[1])
     corner = point_along(at, side, compensated.radius)
-    return PathEnd(at, corner, way, off, blend)
+    return PathEnd(at, corner, direction, outward, blend)
 
 
 def number_text(value: float, unit: Unit, decimals: int) -> str:

@@ -56,7 +56,7 @@ def clear_leads(
     for length in LEAD_LENGTHS:
         if style.entry is EntryRule.SQUARE_TO_ITSELF and length <= MIN_SQUARE_LENGTH:
             continue
-        start, out = _start(first, style, length * radius), point_along(last.at, last.off, length * radius)
+        start, out = _start(first, style, length * radius), point_along(last.at, last.outward, length * radius)
         leads = (Line(start, first.at), *into), (*off, Line(last.at, out))
         depth = max(map(surface.gouge, leads))
         if depth <= GOUGE:
@@ -68,8 +68,8 @@ def _start(end: PathEnd, style: IsoStyle, length: float) -> Point:
     """Return where the entry starts: `length` from its end, on the line that the control needs."""
     at = end.corner if style.entry is EntryRule.SQUARE_TO_ITSELF else end.at
     if end.blend or style.entry is EntryRule.SQUARE_TO_NEXT:
-        return point_along(at, end.off, length)
-    return point_along(at, end.way, -length)
+        return point_along(at, end.outward, length)
+    return point_along(at, end.direction, -length)
 
 
 def with_blends(
@@ -82,9 +82,9 @@ def with_blends(
     if not first.blend:
         return shape
     elements, size = shape.elements, first.blend + radius
-    turn = 1 if first.off[1] * first.way[0] - first.off[0] * first.way[1] > 0.0 else -1
-    into = arc_element(first.corner, elements[0].start, point_along(first.corner, first.way, size), turn)
-    off = arc_element(elements[-1].end, last.corner, point_along(last.corner, last.way, -size), turn)
+    turn = 1 if first.outward[1] * first.direction[0] - first.outward[0] * first.direction[1] > 0.0 else -1
+    into = arc_element(first.corner, elements[0].start, point_along(first.corner, first.direction, size), turn)
+    off = arc_element(elements[-1].end, last.corner, point_along(last.corner, last.direction, -size), turn)
     return ProgrammedElements((into, *elements, off), (segments[0], *shape.segments, segments[1]))
 
 

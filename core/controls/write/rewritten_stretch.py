@@ -118,17 +118,19 @@ def _with_leads(
     return None
 
 
-def _path_end(stretch: Stretch, corner: Point, way: Point, blend: float, sense: int) -> PathEnd:
+def _path_end(stretch: Stretch, corner: Point, direction: Point, blend: float, sense: int) -> PathEnd:
     """Return the path's start (`sense` 1) or end (-1), with a quarter arc of radius `blend`, or none for 0."""
-    off = offset_point((0.0, 0.0), way, stretch.side.sign)
-    at = point_along(point_along(corner, off, stretch.radius + blend), way, -sense * blend)
-    return PathEnd(at, point_along(at, way, -sense * stretch.radius) if blend else corner, way, off, blend)
+    outward = offset_point((0.0, 0.0), direction, stretch.side.sign)
+    at = point_along(point_along(corner, outward, stretch.radius + blend), direction, -sense * blend)
+    return PathEnd(
+        at, point_along(at, direction, -sense * stretch.radius) if blend else corner, direction, outward, blend
+    )
 
 
 def _blend(end: PathEnd, side: Side, sense: int) -> tuple[Piece, ...]:
     """Return the quarter arc between a straight lead and the tool's path, at its start (`sense` 1) or end (-1)."""
     if not end.blend:
         return ()
-    center = point_along(end.at, end.way, sense * end.blend)
-    first, last = (end.at, point_along(center, end.off, -end.blend))[::sense]
+    center = point_along(end.at, end.direction, sense * end.blend)
+    first, last = (end.at, point_along(center, end.outward, -end.blend))[::sense]
     return (Arc(first, last, center, Turn(side.sign)),)

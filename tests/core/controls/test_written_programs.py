@@ -180,11 +180,11 @@ def test_the_ends_of_a_path_with_blends_are_those_of_the_blends() -> None:
     first, last = path_begin(contour), path_finish(contour)
     assert np.array(first.at) / INCH == pytest.approx([0.875, 0.375])
     assert np.array(first.corner) / INCH == pytest.approx([0.625, 0.375])
-    assert first.way == pytest.approx((1.0, 0.0))
-    assert first.off == pytest.approx((0.0, 1.0))
+    assert first.direction == pytest.approx((1.0, 0.0))
+    assert first.outward == pytest.approx((0.0, 1.0))
     assert np.array(last.at) / INCH == pytest.approx([1.125, 0.375])
     assert np.array(last.corner) / INCH == pytest.approx([1.375, 0.375])
-    assert last.way == pytest.approx((1.0, 0.0))
+    assert last.direction == pytest.approx((1.0, 0.0))
 
 
 def test_the_ends_of_a_path_without_blends_are_on_the_contour() -> None:
@@ -192,8 +192,8 @@ def test_the_ends_of_a_path_without_blends_are_on_the_contour() -> None:
     first, last = path_begin(contour), path_finish(contour)
     assert np.array(first.at) / INCH == pytest.approx([1.0, -0.25])
     assert np.array(first.corner) / INCH == pytest.approx([1.0, 0.0])
-    assert first.off == pytest.approx((0.0, -1.0))
-    assert last.way == pytest.approx((1.0, 0.0))
+    assert first.outward == pytest.approx((0.0, -1.0))
+    assert last.direction == pytest.approx((1.0, 0.0))
     assert np.array(last.corner) / INCH == pytest.approx([1.0, 0.0])
 
 
