@@ -11,8 +11,7 @@ from core.controls.compared_contours import MAX_SAME_DISTANCE, Parting, apart
 from core.controls.contour_translation import run_by_contour
 from core.controls.control_run import ControlRun, Stretch
 from core.controls.control_tools import ToolTable
-from core.controls.iso.execute import NO_LIBRARY
-from core.controls.iso.flow import ProgramLibrary
+from core.controls.iso.flow import ProgramLibrary, no_library
 from core.controls.judging.judged_runs import Judged, deepest_gouge, judge_run
 from core.controls.moves import Moves
 from core.controls.registry import UnknownControl, compared, reads, run, run_with_tiny_tool
@@ -57,7 +56,7 @@ def compare(
     text: bytes,
     tools: ToolTable,
     unit: Unit | None = None,
-    library: ProgramLibrary = NO_LIBRARY,
+    library: ProgramLibrary = no_library,
     reference: str = "",
     progress: Progress = silent,
 ) -> tuple[Compared | OtherLanguage, ...]:

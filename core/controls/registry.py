@@ -17,8 +17,8 @@ from core.controls.control_run import ControlRun
 from core.controls.control_tools import ToolTable
 from core.controls.iso.arcs import ArcTolerance
 from core.controls.iso.dialect import Dialect
-from core.controls.iso.execute import NO_LIBRARY, execute
-from core.controls.iso.flow import MakeControl, ProgramLibrary
+from core.controls.iso.flow import MakeControl, ProgramLibrary, no_library
+from core.controls.iso.iso_run import run_iso
 from core.controls.klartext import control as klartext
 from core.controls.klartext.path_functions import KLARTEXT_ARC_TOLERANCE
 from core.controls.klartext.reader import is_klartext_text
@@ -130,7 +130,7 @@ def run(
     control: str,
     tools: ToolTable = NO_TOOLS,
     unit: Unit | None = None,
-    library: ProgramLibrary = NO_LIBRARY,
+    library: ProgramLibrary = no_library,
     *,
     progress: Progress = silent,
 ) -> ControlRun | UnknownControl:
@@ -164,7 +164,7 @@ def _run(
     if entry.dialect is None or make is None:
         return klartext.run_klartext(text, tools, share, progress)
     dialect = replace(entry.dialect, unit=unit or entry.dialect.unit)
-    return execute(text, control, dialect, tools.scaled(share), make, library, progress)
+    return run_iso(text, control, dialect, tools.scaled(share), make, library, progress)
 
 
 def _with_rest_of_contour(stopped: ControlRun, whole: ControlRun) -> ControlRun:

@@ -14,8 +14,7 @@ from core.controls.compared_controls import Compared, OtherLanguage, compare
 from core.controls.control_names import display_name
 from core.controls.control_run import MAX_ALIKE, ControlRun, more_alike
 from core.controls.control_tools import ToolId, ToolTable
-from core.controls.iso.execute import NO_LIBRARY
-from core.controls.iso.flow import ProgramLibrary
+from core.controls.iso.flow import ProgramLibrary, no_library
 from core.controls.iso.modal_state import RADIUS_ZERO
 from core.controls.judging import shop_rules
 from core.controls.judging.judged_findings import judged_findings
@@ -67,7 +66,7 @@ class Asked:
     tools: ToolTable
     shop: bool
     unit: Unit | None
-    library: ProgramLibrary = NO_LIBRARY
+    library: ProgramLibrary = no_library
     names_options: bool = True
     fits: bool = True
 

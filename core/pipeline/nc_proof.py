@@ -10,8 +10,7 @@ from numpy.typing import NDArray
 
 from core.controls.control_run import ControlRun, Stretch
 from core.controls.control_tools import ToolTable
-from core.controls.iso.execute import NO_LIBRARY
-from core.controls.iso.flow import ProgramLibrary
+from core.controls.iso.flow import ProgramLibrary, no_library
 from core.controls.judging.judged_runs import Judged, judge_run
 from core.controls.moves import Moves, Plane
 from core.controls.registry import UnknownControl, run
@@ -41,7 +40,7 @@ def run_program(
     control: str,
     tools: ToolTable,
     unit: Unit | None = None,
-    library: ProgramLibrary = NO_LIBRARY,
+    library: ProgramLibrary = no_library,
     progress: Progress = silent,
 ) -> Proof | UnknownControl:
     """Run the program on a control, without the verdicts, which take longer than the run."""

@@ -59,6 +59,10 @@ ProgramLibrary = Callable[[int | str], tuple[str, bytes] | None]
 """Returns the name and text of a program outside the file, by its number or the label of LinuxCNC's O-word."""
 
 
+def no_library(_: int | str) -> None:
+    """Return None: a library without programs."""
+
+
 class OWord(NamedTuple):
     """An O-word: its row from 0, label and word, and its line with where the word begins and ends in it.
 

@@ -8,7 +8,7 @@ from pathlib import Path
 
 from core.controls import registry
 from core.controls.control_run import ControlRun
-from core.controls.iso.execute import execute
+from core.controls.iso.iso_run import run_iso
 from core.controls.makers import linuxcnc
 from core.controls.registry import UnknownControl
 from core.finding import Finding
@@ -31,7 +31,7 @@ def ran_up_to(text: str, blocks: int, **diameters: float) -> ControlRun:
     """The run of a program on LinuxCNC, given up when so many blocks have run again."""
     table = end_mills({int(name[1:]): value for name, value in diameters.items()})
     dialect = replace(linuxcnc.DIALECT, max_repeated_blocks=blocks)
-    return execute(text.encode(), "linuxcnc", dialect, table, linuxcnc.LinuxCnc)
+    return run_iso(text.encode(), "linuxcnc", dialect, table, linuxcnc.LinuxCnc)
 
 
 def sample(name: str, control: str, **diameters: float) -> ControlRun:

@@ -15,7 +15,7 @@ from core.controls import registry
 from core.controls.control_run import ControlRun
 from core.controls.control_tools import CutterTool, ToolTable
 from core.controls.iso import macro_b_flow
-from core.controls.iso.execute import execute
+from core.controls.iso.iso_run import run_iso
 from core.controls.makers import fanuc
 from core.controls.registry import UnknownControl
 from core.finding import Severity
@@ -50,7 +50,7 @@ def ran_with(program: str, **rules: Any) -> ControlRun:
     """Run on `fanuc:a` with other parameters."""
     changed = replace(fanuc.VECTOR_RULES["a"], **rules)
     table = ToolTable.of(CutterTool(1, 10.0))
-    return execute(program.encode(), "fanuc:a", fanuc.DIALECT, table, partial(fanuc.Fanuc, rules=changed))
+    return run_iso(program.encode(), "fanuc:a", fanuc.DIALECT, table, partial(fanuc.Fanuc, rules=changed))
 
 
 def flat(run: ControlRun) -> list[Flat]:

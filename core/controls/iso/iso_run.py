@@ -12,7 +12,7 @@ from core.controls.control_run import AlarmError, ControlRun, Log
 from core.controls.control_tools import ToolTable
 from core.controls.iso.dialect import Dialect
 from core.controls.iso.expressions import ParameterStore
-from core.controls.iso.flow import Flow, MakeControl, OWordFlow, ProgramLibrary
+from core.controls.iso.flow import Flow, MakeControl, OWordFlow, ProgramLibrary, no_library
 from core.controls.iso.machine import Machine
 from core.controls.iso.macro_b_flow import MacroFlow
 from core.controls.iso.macro_b_machine import MacroMachine
@@ -27,23 +27,19 @@ LINES_BETWEEN: Final = 200
 _CR_ALONE: Final = re.compile(rb"\r(?!\n)")
 
 
-def no_library(_: int | str) -> None:
-    """Return None: a library without programs."""
-
-
-NO_LIBRARY: Final[ProgramLibrary] = no_library
-
-
-def execute(
+def run_iso(
     text: bytes,
     name: str,
     dialect: Dialect,
     tools: ToolTable,
     make: MakeControl,
-    library: ProgramLibrary = NO_LIBRARY,
+    library: ProgramLibrary = no_library,
     progress: Progress = silent,
 ) -> ControlRun:
-    """Run a program on the control with this name that `make` makes; never raises, whatever the text."""
+    """Run a program's text on a control: `make` makes the control, `name` is its full name in the result.
+
+    No text raises anything but Stopped.
+    """
     log = Log(rule_names=dialect.rule_names)
     control = make(log)
     lines = lines_of(text)
