@@ -160,7 +160,7 @@ def _print_table(answers: tuple[Answer, ...]) -> None:
     width = max(len(result.name) for result in answers)
     outcome = max(len(result.outcome_and_warnings) for result in answers)
     for result in answers:
-        print(f"{result.name:<{width}}  {result.outcome_and_warnings:<{outcome}}  {result.parts}".rstrip())
+        print(f"{result.name:<{width}}  {result.outcome_and_warnings:<{outcome}}  {result.comparison}".rstrip())
     for reason in reasons(answers):
         print(reason)
 

@@ -74,7 +74,7 @@ class CompareControls(Dialog["tuple[str, bool] | None"]):
             role = "$c-err" if answer.errors else "$c-label" if answer.moves is None else good
             outcome = answer.outcome if answer.errors else answer.outcome_and_warnings
             lines = [Content.assemble(f"{answer.name:<20}", (outcome, role))]
-            more = answer.why_said or answer.parts
+            more = answer.stop_reason or answer.comparison
             lines += [Content.styled(f"    {more}", "$c-label")] if more else []
             rows.add_option(Option(Content("\n").join(lines), id=answer.control))
         rows.highlighted = 0

@@ -410,7 +410,7 @@ class ProofScreen(BaseScreen):
             return Content("running ...")
         answer = self.result.answer
         role = "$c-err" if answer.errors else "$c-warn" if answer.uncompensated or answer.warnings else "$c-good"
-        text = self._alarm(answer) or f"{answer.outcome}; {counted(answer.count, 'move')}"
+        text = self._alarm(answer) or f"{answer.outcome}; {counted(answer.move_count, 'move')}"
         # after an alarm only part of the program was run, so its contours are not counted
         if answer.stretches != 1 and answer.stopped_at is None:
             text += f", {counted(answer.stretches, 'contour') if answer.stretches else 'no contour'}"
@@ -422,7 +422,7 @@ class ProofScreen(BaseScreen):
         """Return the line and the reason of an alarm; empty if there is none, or if a gouge comes before it."""
         if not answer.outcome.startswith("alarms at"):
             return ""
-        reason = f"{answer.why_said.partition('. ')[0].removesuffix('.')}."
+        reason = f"{answer.stop_reason.partition('. ')[0].removesuffix('.')}."
         if answer.missing is not None:
             reason = f"tool {answer.missing} not in table. T adds it."
         return f"{MARKS_OF_CHARACTERS[self.host.characters].gouge} ALARM line {answer.stopped_at}: {reason}"

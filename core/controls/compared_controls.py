@@ -30,18 +30,19 @@ MAX_POINT_PAIRS: Final = 1_000_000
 
 @dataclass(frozen=True, eq=False, slots=True)
 class Compared:
-    """A control's run of the program; `parts` is where it leaves the path of control `of`, the first that runs it.
+    """A control's run of the program, its verdicts, and its deepest gouge in millimeters, 0 if there is none.
 
-    `by` names the control whose contour was translated if this one does not read the program's language.
+    `parting` is where its path leaves that of the control `reference`; None if it does not.  If this control does not
+    read the program's language, it has run the contour as the control `contour_of` reads it.
     """
 
     control: str
     run: ControlRun
     results: tuple[Judged, ...]
     gouge: float
-    parts: Parting | None
-    by: str = ""
-    of: str = ""
+    parting: Parting | None
+    contour_of: str = ""
+    reference: str = ""
 
 
 @dataclass(frozen=True, slots=True)
@@ -77,9 +78,9 @@ def compare(
         done = run(text, control, tools, unit or Unit.IN, library, progress=part(of_this, 0.0, RUN_SHARE))
         if isinstance(done, UnknownControl):
             continue
-        parts = None if first is None else parting(first.moves, done.moves)
+        where = None if first is None else parting(first.moves, done.moves)
         judging = part(of_this, RUN_SHARE, 1.0)
-        rows.append(_row(done, parts, of="" if first is None else first.control, progress=judging))
+        rows.append(_row(done, where, reference="" if first is None else first.control, progress=judging))
         if first is None and done.stopped_at is None:
             first = done
     whole = first or next(filter(None, (run_with_tiny_tool(text, row.control, tools) for row in rows)), None)
@@ -90,10 +91,15 @@ def compare(
 
 
 def _row(
-    done: ControlRun, parts: Parting | None, *, by: str = "", of: str = "", progress: Progress = silent
+    done: ControlRun,
+    where: Parting | None,
+    *,
+    contour_of: str = "",
+    reference: str = "",
+    progress: Progress = silent,
 ) -> Compared:
     results = judge_run(done, progress)
-    return Compared(done.control, done, results, deepest_gouge(results)[0], parts, by, of)
+    return Compared(done.control, done, results, deepest_gouge(results)[0], where, contour_of, reference)
 
 
 def _by_contour(control: str, first: ControlRun | None, *, paths: bool) -> Compared | OtherLanguage:
@@ -104,8 +110,8 @@ def _by_contour(control: str, first: ControlRun | None, *, paths: bool) -> Compa
     if isinstance(made, NotTranslated):
         return OtherLanguage(control, made.text)
     done, digit = made
-    parts = _centers_part(first, done, max(MIN_TOLERANCE, 2 * digit)) if paths else None
-    return _row(done, parts, by=first.control, of=first.control)
+    where = _centers_part(first, done, max(MIN_TOLERANCE, 2 * digit)) if paths else None
+    return _row(done, where, contour_of=first.control, reference=first.control)
 
 
 def _centers_part(first: ControlRun, other: ControlRun, tolerance: float) -> Parting | None:
@@ -113,11 +119,11 @@ def _centers_part(first: ControlRun, other: ControlRun, tolerance: float) -> Par
     for ours, theirs in zip(first.stretches, other.stretches, strict=False):
         lines = set(theirs.programmed.lines.tolist())
         path, other_path = _along(first, ours, lines), _along(other, theirs, lines)
-        parts = apart(other_path, path, tolerance)
-        if parts is None and other.stopped_at is None:
-            parts = apart(path, other_path, tolerance)
-        if parts is not None:
-            return parts
+        where = apart(other_path, path, tolerance)
+        if where is None and other.stopped_at is None:
+            where = apart(path, other_path, tolerance)
+        if where is not None:
+            return where
     return None
 
 

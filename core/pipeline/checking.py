@@ -73,7 +73,12 @@ class Asked:
 
 @dataclass(frozen=True, eq=False, slots=True)
 class Answer:
-    """A program's result on a control; `why` is what it stops for, `fits` the largest tool if one is too big."""
+    """A program's result on a control: the outcome in words, the findings, and what they were made from.
+
+    `stretches` counts the compensated ones.  `stop` is the error that the control stops for.  `gouge` is the deepest
+    one's depth in millimeters and its line.  `parting` is where the path leaves that of the control `reference`, and
+    `comparison` says so in words, or why it was not compared.  `fits` is the largest tool if one is too big.
+    """
 
     control: str
     unit: Unit
@@ -82,12 +87,12 @@ class Answer:
     stopped_at: int | None
     outcome: str
     stretches: int = 0
-    parts: str = ""
-    why: Finding | None = None
+    comparison: str = ""
+    stop: Finding | None = None
     state: State = State.CLEAN
     gouge: tuple[float, int | None] | None = None
     parting: Parting | None = None
-    parting_of: str = ""
+    reference: str = ""
     fits: Finding | None = None
 
     @property
@@ -118,9 +123,9 @@ class Answer:
         return any(finding.code in RADIUS_ZERO for finding in self.findings)
 
     @property
-    def why_said(self) -> str:
+    def stop_reason(self) -> str:
         """The reason for the stop as a sentence, empty if the control does not stop."""
-        return "" if self.why is None else sentence(self.why, self.unit)
+        return "" if self.stop is None else sentence(self.stop, self.unit)
 
     @property
     def missing(self) -> ToolId | None:
@@ -130,7 +135,7 @@ class Answer:
         return next((error.tool for error in self.findings if error.tool is not None), None)
 
     @property
-    def count(self) -> int:
+    def move_count(self) -> int:
         """The number of moves, without the start point."""
         return len(self.moves) - 1 if self.moves is not None else 0
 
@@ -145,7 +150,7 @@ class Answer:
             "state": self.state.value,
             "stopped_at": self.stopped_at,
             "deepest_gouge": depth,
-            "parts_from": None if self.parting is None else _parts_from(self.parting, self.parting_of, self.unit),
+            "parts_from": None if self.parting is None else _parts_from(self.parting, self.reference, self.unit),
             "stretches": self.stretches,
             "moves": moves,
             "findings": findings,
@@ -199,10 +204,10 @@ def _only_leads_gouge(row: Answer, done: ControlRun) -> bool:
 
 def _with_remedy(row: Answer, remedy: Callable[[ToolId], str]) -> Answer:
     """Return the answer; if the control stops for lack of a tool's size, with the remedy in the text of that alarm."""
-    if row.why is None or row.stopped_at is None or row.why.tool is None:
+    if row.stop is None or row.stopped_at is None or row.stop.tool is None:
         return row
-    why = replace(row.why, text=f"{row.why.text} {remedy(row.why.tool)}")
-    return replace(row, why=why, findings=tuple(why if finding is row.why else finding for finding in row.findings))
+    stop = replace(row.stop, text=f"{row.stop.text} {remedy(row.stop.tool)}")
+    return replace(row, stop=stop, findings=tuple(stop if finding is row.stop else finding for finding in row.findings))
 
 
 def tool_option(tool: ToolId) -> str:
@@ -234,18 +239,19 @@ def _compared(row: Compared | OtherLanguage, asked: Asked, text: bytes) -> Answe
     if isinstance(row, OtherLanguage):
         message = f"The program is in another control's language, and its contour is not compared: {row.why}."
         findings = (_language(Severity.INFO, message),)
-        outcome, parts = "reads another language", f"not compared: {row.why}"
+        outcome, comparison = "reads another language", f"not compared: {row.why}"
         state = State.OTHER_LANGUAGE
-        return Answer(row.control, Unit.MM, None, findings, None, outcome, parts=parts, state=state)
-    parts = _parting(row.parts, row.of, row.run.unit) if row.parts else ""
-    if not row.by:
+        return Answer(row.control, Unit.MM, None, findings, None, outcome, comparison=comparison, state=state)
+    comparison = _parting(row.parting, row.reference, row.run.unit) if row.parting else ""
+    if not row.contour_of:
         answer_row = _complete(_answer(row.run, row.results, (), shop=asked.shop), row.run, text, asked)
     else:
-        message = f"The program is in another control's language: only its contour was run, as {display_name(row.by)} "
-        message += "reads it, with straight leads that cutcomp adds."
+        reader = display_name(row.contour_of)
+        message = f"The program is in another control's language: only its contour was run, as {reader} reads it, with "
+        message += "straight leads that cutcomp adds."
         answer_row = _answer(row.run, row.results, (_language(Severity.INFO, message),), shop=asked.shop)
-        parts = f"its contour only{'; ' if parts else ''}{parts}"
-    return replace(answer_row, parts=parts, parting=row.parts, parting_of=row.of)
+        comparison = f"its contour only{'; ' if comparison else ''}{comparison}"
+    return replace(answer_row, comparison=comparison, parting=row.parting, reference=row.reference)
 
 
 def _language(severity: Severity, message: str) -> Finding:
@@ -262,10 +268,10 @@ def _foreign(control: str, text: bytes) -> tuple[Finding, ...]:
 def _answer(done: ControlRun, results: tuple[Judged, ...], before: tuple[Finding, ...], *, shop: bool) -> Answer:
     merged = (*before, *done.findings, *judged_findings(results), *(shop_rules.check_shop_rules(done) if shop else ()))
     errors = [finding for finding in done.findings if finding.severity is Severity.ERROR]
-    why = errors[-1] if errors and done.stopped_at is not None else None
+    stop = errors[-1] if errors and done.stopped_at is not None else None
     merged = _without_repeats(merged, done.unit)
     gouge = deepest_gouge(results)
-    state, outcome = _outcome(done, results, why, merged)
+    state, outcome = _outcome(done, results, stop, merged)
     return Answer(
         done.control,
         done.unit,
@@ -274,7 +280,7 @@ def _answer(done: ControlRun, results: tuple[Judged, ...], before: tuple[Finding
         done.stopped_at,
         outcome,
         stretches=len(done.stretches),
-        why=why,
+        stop=stop,
         state=state,
         gouge=gouge if gouge[0] else None,
     )
@@ -308,7 +314,7 @@ def _by_line(findings: tuple[Finding, ...]) -> tuple[Finding, ...]:
 
 
 def _outcome(
-    done: ControlRun, results: tuple[Judged, ...], why: Finding | None, findings: tuple[Finding, ...]
+    done: ControlRun, results: tuple[Judged, ...], stop: Finding | None, findings: tuple[Finding, ...]
 ) -> tuple[State, str]:  # fmt: skip
     """Return the state of a run and the words for it, the worst first: an alarm before a gouge, a gouge before what
     cannot be judged."""
@@ -318,7 +324,7 @@ def _outcome(
     place = f"at line {line}" if line else "in a lead"
     gouges = f"gouges by {length_text(cut, done.unit)} {place}" if cut else ""
     if done.stopped_at is not None:
-        rule = "" if why is None else why.code
+        rule = "" if stop is None else stop.code
         state, stops = (
             (State.NOT_FOLLOWED, "cannot be followed past") if rule in NOT_FOLLOWED else (State.ALARM, "alarms at")
         )
@@ -340,9 +346,9 @@ def _outcome(
     return State.CLEAN if words == "runs" else State.EMPTY, words
 
 
-def _parting(parting: Parting, of: str, unit: Unit) -> str:
+def _parting(parting: Parting, reference: str, unit: Unit) -> str:
     """Return where the paths part, their largest distance and its line; short enough for a line of the screen."""
-    where = f"differs from {display_name(of)} from line {parting.line}"
+    where = f"differs from {display_name(reference)} from line {parting.line}"
     return f"{where}, by {length_text(parting.distance, unit)} at line {parting.farthest}"
 
 
@@ -363,9 +369,9 @@ def _move(move: Move, unit: Unit) -> dict[str, object]:
     return document
 
 
-def _parts_from(parting: Parting, of: str, unit: Unit) -> dict[str, object]:
+def _parts_from(parting: Parting, reference: str, unit: Unit) -> dict[str, object]:
     return {
-        "control": display_name(of),
+        "control": display_name(reference),
         "line": parting.line,
         "farthest_line": parting.farthest,
         "distance": from_mm(parting.distance, unit),
@@ -396,7 +402,7 @@ def lines(row: Answer) -> Iterator[str]:
     for finding in row.findings:
         place = "" if finding.line is None else f"{finding.line}:{finding.column or 1}"
         yield f"{place:>9}  {finding.severity.value:<7}  {finding.code:<13}  {sentence(finding, row.unit)}"
-    moves, stretches = counted(row.count, "move"), counted(row.stretches, "compensated stretch")
+    moves, stretches = counted(row.move_count, "move"), counted(row.stretches, "compensated stretch")
     yield f"{row.name}: {row.outcome_and_warnings}; {moves}, {stretches}, {row.unit.value}."
 
 
@@ -409,8 +415,8 @@ def reasons(answers: tuple[Answer, ...]) -> Iterator[str]:
     """Yield each reason for a stop with the controls that stop at that line for it; then the largest tools that fit."""
     stopped: dict[str, list[str]] = {}
     for row in answers:
-        if row.why:
-            stopped.setdefault(f"line {row.stopped_at} ({row.why.code}): {row.why_said}", []).append(row.name)
+        if row.stop:
+            stopped.setdefault(f"line {row.stopped_at} ({row.stop.code}): {row.stop_reason}", []).append(row.name)
     for reason, names in stopped.items():
         yield f"{' and '.join(filter(None, (', '.join(names[:-1]), names[-1])))} at {reason}"
     for row in answers:

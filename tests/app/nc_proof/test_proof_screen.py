@@ -102,7 +102,7 @@ async def with_tool(user: Proof, text: str = "1=.25") -> None:
 async def test_an_unknown_tool_stops_the_control_until_its_diameter_is_typed(tmp_path):
     async with at_proof(tmp_path) as user:
         assert user.outcome == "✖ ALARM line 3: tool 1 not in table. T adds it."
-        assert " T gives tool 1 its diameter." in user.proof.result.answer.why.text
+        assert " T gives tool 1 its diameter." in user.proof.result.answer.stop.text
         await user.press("n")
         assert user.prompt.endswith(" T gives tool 1 its diameter.")
         await with_tool(user)

@@ -72,10 +72,10 @@ def test_a_klartext_contour_on_controls_with_arcs_at_corners(control: str) -> No
 def test_a_control_with_mitres_parts_at_the_corner(control: str) -> None:
     row = rows(klartext(*HOOK))[control]
     assert isinstance(row, Compared)
-    assert row.by == "klartext"
-    assert row.parts is not None
-    assert row.parts.distance == NEAR(5 * (2**0.5 - 1), abs=0.003)
-    assert row.parts.line in (7, 8)
+    assert row.contour_of == "klartext"
+    assert row.parting is not None
+    assert row.parting.distance == NEAR(5 * (2**0.5 - 1), abs=0.003)
+    assert row.parting.line in (7, 8)
 
 
 def test_an_iso_contour_on_klartext() -> None:
@@ -107,7 +107,7 @@ def test_where_the_tool_is_too_large_on_klartext_the_others_still_answer() -> No
     fine, strict = made["threeblock"], made["linuxcnc"]
     assert isinstance(fine, Compared)
     assert isinstance(strict, Compared)
-    assert (fine.run.stopped_at, fine.parts) == (None, None)
+    assert (fine.run.stopped_at, fine.parting) == (None, None)
     assert fine.gouge == NEAR(5, abs=0.01)
     assert strict.run.stopped_at == 8
 

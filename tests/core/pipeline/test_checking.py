@@ -32,9 +32,9 @@ def asked(control: str, *tools: CutterTool) -> Asked:
 def test_a_missing_diameter_stops_the_run_and_names_the_option_that_gives_it() -> None:
     row = answer(b"G21 F100.\nG41 D3 G1 X10. Y0\nX20.\nM30\n", asked("fanuc:a"))
     assert row.stopped_at == 2
-    assert row.why is not None
-    assert row.why.text.endswith("On the command line: --tool 3=DIAMETER.")
-    assert row.why in row.findings
+    assert row.stop is not None
+    assert row.stop.text.endswith("On the command line: --tool 3=DIAMETER.")
+    assert row.stop in row.findings
 
 
 def test_a_comparison_of_contours_says_which_program_stops_and_why() -> None:
@@ -91,7 +91,7 @@ def test_a_canceled_search_for_the_largest_tool_stops() -> None:
 
 def test_a_program_with_its_tool_runs_to_its_end() -> None:
     row = answer(b"G21 F100.\nG41 D3 G1 X10. Y0\nX20.\nG40 X30.\nM30\n", asked("fanuc:a", CutterTool(3, 10.0)))
-    assert (row.stopped_at, row.why) == (None, None)
+    assert (row.stopped_at, row.stop) == (None, None)
 
 
 SLOT = (
@@ -189,7 +189,7 @@ KLARTEXT = b"0 BEGIN PGM A MM\n1 L X+1 F9\n2 END PGM A MM\n"
 )
 def test_the_outcome_says_the_worst_in_a_few_words(control: str, text: bytes, outcome: str, moves: int) -> None:
     row = answer(text, asked(control, CutterTool(1, 10.0)))
-    assert (row.outcome_and_warnings, row.count) == (outcome, moves)
+    assert (row.outcome_and_warnings, row.move_count) == (outcome, moves)
     assert row.uncompensated is ("nothing compensated" in outcome)
     assert row.errors is any(word in outcome for word in ("nothing to run", "cannot", "gouges", "alarms"))
 
@@ -208,7 +208,7 @@ def test_nc_proof_names_its_key_for_a_missing_diameter(control: str, text: bytes
     assert isinstance(done, ControlRun)
     row = answered(done, judge_run(done), text)
     assert row.missing == tool
-    assert row.why_said.endswith(f"T gives tool {tool} its diameter.") is (tool is not None)
+    assert row.stop_reason.endswith(f"T gives tool {tool} its diameter.") is (tool is not None)
 
 
 ARC = b"G20\nF9.\nG0 X1.\nG3 X2. Y1. I0. J1.\n%sM30\n"
@@ -254,7 +254,7 @@ def test_a_path_that_leaves_that_of_the_reference_says_from_where_and_how_far() 
     text = b"G21 F9.\nG0 X-20. Y-10.\nG41 D1 G1 X0. Y0.\nY30.\nX40.\nG40 X60. Y50.\nM30\n"
     rows = answer_all(text, asked("all", CutterTool(1, 10.0)), "haas:a")
     row = next(row for row in rows if row.control == "klartext")
-    assert row.parts == "its contour only; differs from haas:a from line 4, by 1.464 at line 4"
+    assert row.comparison == "its contour only; differs from haas:a from line 4, by 1.464 at line 4"
     distance = pytest.approx(5 * (1 - sqrt(0.5)))
     assert row.json()["parts_from"] == {"control": "haas:a", "line": 4, "farthest_line": 4, "distance": distance}
     assert row.findings[0].code == "LANGUAGE"
@@ -262,8 +262,8 @@ def test_a_path_that_leaves_that_of_the_reference_says_from_where_and_how_far() 
 
 def test_a_program_without_a_contour_is_not_compared_with_another_language() -> None:
     (row,) = [row for row in answer_all(b"G21 F9.\nG1 X1.\nM30\n", asked("all")) if row.control == "klartext"]
-    assert (row.outcome, row.count, row.errors) == ("reads another language", 0, False)
-    assert row.parts.startswith("not compared: ")
+    assert (row.outcome, row.move_count, row.errors) == ("reads another language", 0, False)
+    assert row.comparison.startswith("not compared: ")
 
 
 FIRST = b"G21 F9.\nG41 D1 G1 X9.\nX20.\nY40.\nG40 X30.\nM30\n"

@@ -85,8 +85,8 @@ def test_all_controls_are_compared_with_the_reference(reference: str) -> None:
     assert {row.control for row in rows} == {*compared(), reference}
     others = [row for row in rows[1:] if isinstance(row, Compared)]
     assert len(others) > 5
-    assert all(row.of == reference for row in others)
-    assert any(row.parts for row in others)
+    assert all(row.reference == reference for row in others)
+    assert any(row.parting for row in others)
 
 
 def test_parting_finds_where_two_paths_separate() -> None:
