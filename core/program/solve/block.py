@@ -1,9 +1,9 @@
 """This module solves a block: it reads START and calculates every blank field that the typed fields determine.
 
 A segment starts where the one before it ends.  Its blank fields are calculated as `Solved`, together with those of
-later segments where they depend on each other (`stretch`).  Z END and FEED carry over from the segment before; those of
-the first segment come from Z BOTTOM and the tool's FEED, else PLUNGE FEED.  A LINE whose only typed shape field is
-X END or Y END keeps the other coordinate.  No other blank X END or Y END carries over: the line or arc is then
+later segments where they depend on each other (`run_of_segments`).  Z END and FEED carry over from the segment before;
+those of the first segment come from Z BOTTOM and the tool's FEED, else PLUNGE FEED.  A LINE whose only typed shape
+field is X END or Y END keeps the other coordinate.  No other blank X END or Y END carries over: the line or arc is then
 undetermined, and a finding says what is missing.  If two solutions fit, the segment's `choice` picks one, in the order
 that `line` and `arc` document.
 """
@@ -21,9 +21,9 @@ from core.program.fields import FIELDS_OF_FORM, Form, field_of, form_of, typed_t
 from core.program.model import Block, Coolant, CornerSegment, CutterComp, Number, Program, Tool
 from core.program.solve.corners import Corners, put_corners_in
 from core.program.solve.reading import Reading, read_form, usable
+from core.program.solve.run_of_segments import TypedContour, place_faults, run_at
 from core.program.solve.segment import Carried, Draft, draft, typed_point
 from core.program.solve.solved import Origin, SolvedBlock, SolvedRun, SolvedSegment
-from core.program.solve.stretch import Contour, place_faults, stretch_at
 from core.program.tools import CalledTool, called_tool
 from core.tolerance import CLOSED
 from core.units import Unit
@@ -88,11 +88,11 @@ def _drafts(block: Block, unit: Unit, start: _Start) -> tuple[list[Draft], tuple
     readings = [read_form(form_of(segment), segment, unit, number) for number, segment in numbered]
     drafts: list[Draft] = []
     runs: list[SolvedRun] = []
-    contour = Contour(block.segments, readings, drafts, unit)
+    contour = TypedContour(block.segments, readings, drafts, unit)
     while len(drafts) < len(readings):
         index = len(drafts)
         own_draft = draft(block.segments[index], readings[index].copy(), carried, unit)
-        together, run = stretch_at(contour, index, own_draft) or ((own_draft,), None)
+        together, run = run_at(contour, index, own_draft) or ((own_draft,), None)
         drafts += together
         runs += [run] if run is not None else []
         carried = drafts[-1].after

@@ -1,9 +1,9 @@
-"""This module picks the stretch of segments that are solved together as a run, solves it and fills its segments.
+"""This module decides which segments are solved together as a run, solves the run and fills in its segments.
 
-A stretch begins at the first segment that its own fields do not determine, or that refers to a point or a segment.  It
-is the shortest stretch that the run's solver determines.  If several solutions are left and the next segment is tied to
-the last one (TANGENT, a relative angle), the stretch grows while that leaves fewer.  It skips BLEND ARCs and CHAMFERs:
-the run is solved with sharp corners.
+A run begins at the first segment that its own fields do not determine, or that refers to a point or a segment.  It is
+as short as the solver allows.  If several solutions are left and the next segment is tied to the last one (TANGENT, a
+relative angle), the run grows while that leaves fewer.  It skips BLEND ARCs and CHAMFERs: it is solved with sharp
+corners.
 """
 
 from __future__ import annotations
@@ -38,7 +38,7 @@ SKETCHED = 0.2
 """Length drawn for an element of which only the heading is known, as a fraction of the run's size."""
 
 ENDING = {"x_end", "y_end", "x_end_inc", "y_end_inc", "length", "sweep"}
-"""Data that fix where an element ends along its line or circle; the last element of a stretch needs one of them."""
+"""Data that fix where an element ends along its line or circle; the last element of a run needs one of them."""
 
 KEPT = ("x_end_inc", "y_end_inc")
 """The relative coordinate that is 0 for a LINE that keeps a coordinate, by axis."""
@@ -47,13 +47,13 @@ SQUARE = 1e-9
 """Largest cosine of the angle between a line and an axis at which they count as square."""
 
 
-Stretch = tuple[tuple[Draft, ...], SolvedRun | None]
-"""The drafts of a stretch's segments, including corners, and the run as the screens use it."""
+DraftedRun = tuple[tuple[Draft, ...], SolvedRun | None]
+"""The drafts of a run's segments, including corners, and the run as the screens use it; None if it was not tried."""
 
 
 @dataclass(frozen=True, slots=True)
-class Contour:
-    """The segments of a block, their typed fields, and the drafts of the segments before the stretch."""
+class TypedContour:
+    """The segments of a block, their typed fields, and the drafts of the segments before the run."""
 
     segments: Sequence[Segment]
     readings: Sequence[Reading]
@@ -61,8 +61,8 @@ class Contour:
     unit: Unit
 
 
-def stretch_at(contour: Contour, index: int, own_draft: Draft) -> Stretch | None:
-    """Return the stretch that begins at a segment; None if `own_draft`, from the segment's own fields, is enough."""
+def run_at(contour: TypedContour, index: int, own_draft: Draft) -> DraftedRun | None:
+    """Return the run that begins at a segment; None if `own_draft`, from the segment's own fields, is enough."""
     segment = contour.segments[index]
     if own_draft.before.point is None or isinstance(segment, CornerSegment):
         return None
@@ -90,7 +90,7 @@ def stretch_at(contour: Contour, index: int, own_draft: Draft) -> Stretch | None
 
 
 def _decides(attempt: _Attempt, own_draft: Draft) -> bool:
-    """True if the stretch leaves fewer solutions for its first segment than the segment has by itself."""
+    """True if the run leaves fewer solutions for its first segment than the segment has by itself."""
     left = {_rounded(answer.pieces[:1]) for answer in attempt.search.answers}
     return 0 < len(left) < len(own_draft.result.choices)
 
@@ -100,27 +100,27 @@ def _decides(attempt: _Attempt, own_draft: Draft) -> bool:
 
 @dataclass(frozen=True, slots=True)
 class _Attempt:
-    """A stretch to try: the indices of its segments, their run, and all answers of the run."""
+    """A run that is tried: the indices of its segments, its data, and all its answers."""
 
     indices: tuple[int, ...]
     run: Run
     search: Search
 
 
-def _next(contour: Contour, index: int) -> int | None:
+def _next(contour: TypedContour, index: int) -> int | None:
     """Return the index of the next LINE or ARC, None if there is none."""
     after = range(index + 1, len(contour.segments))
     return next((at for at in after if not isinstance(contour.segments[at], CornerSegment)), None)
 
 
-def _relational(contour: Contour, index: int) -> bool:
+def _relational(contour: TypedContour, index: int) -> bool:
     """True if a typed field relates the segment to a point or to another segment."""
     segment = contour.segments[index]
     known = contour.readings[index].known
     return getattr(segment, "tangent", False) or any(name in known for name in RELATIONS)
 
 
-def _tied(contour: Contour, index: int | None) -> bool:
+def _tied(contour: TypedContour, index: int | None) -> bool:
     """True if a segment's heading is tied to the segment before it."""
     if index is None:
         return False
@@ -129,7 +129,7 @@ def _tied(contour: Contour, index: int | None) -> bool:
     return relative or (getattr(contour.segments[index], "tangent", False) and tangent_fault(contour, index) is None)
 
 
-def tangent_fault(contour: Contour, index: int) -> Finding | None:
+def tangent_fault(contour: TypedContour, index: int) -> Finding | None:
     """Return why TANGENT is not allowed at a segment, None if it is allowed or not set."""
     if not getattr(contour.segments[index], "tangent", False):
         return None
@@ -143,8 +143,8 @@ def tangent_fault(contour: Contour, index: int) -> Finding | None:
     return Finding("TANGENT_PLACE", Severity.ERROR, text, field="tangent")
 
 
-def _longer_and_longer(contour: Contour, first: int) -> Iterator[tuple[int, ...]]:
-    """Yield the indices of stretches of one, two ... LINEs and ARCs from `first` on, up to the first that ends.
+def _longer_and_longer(contour: TypedContour, first: int) -> Iterator[tuple[int, ...]]:
+    """Yield the indices of runs of one, two ... LINEs and ARCs from `first` on, up to the first that ends.
 
     The longest has as many elements as are solved together.
     """
@@ -156,8 +156,8 @@ def _longer_and_longer(contour: Contour, first: int) -> Iterator[tuple[int, ...]
         at = None if _ends(contour, indices) else _next(contour, at)
 
 
-def _ends(contour: Contour, indices: Sequence[int]) -> bool:
-    """True if a stretch ends at a typed point and no later segment refers to it."""
+def _ends(contour: TypedContour, indices: Sequence[int]) -> bool:
+    """True if a run ends at a typed point and no later segment refers to it."""
     known, after = contour.readings[indices[-1]].known, _next(contour, indices[-1])
     if not ("x_end" in known and "y_end" in known):
         return False
@@ -168,8 +168,8 @@ def _ends(contour: Contour, indices: Sequence[int]) -> bool:
     return not _tied(contour, after) and not any(reading.known.get("parallel") in numbers for reading in later)
 
 
-def _solved(contour: Contour, first: int, before: Carried, least: int) -> _Attempt | None:
-    """Return the shortest stretch from a segment on that the solver settles, with or without answers; None if none.
+def _solved(contour: TypedContour, first: int, before: Carried, least: int) -> _Attempt | None:
+    """Return the shortest run from a segment on that the solver settles, with or without answers; None if none.
 
     It has at least `least` elements: a segment that is tied to no other has its own rules.
     """
@@ -180,16 +180,16 @@ def _solved(contour: Contour, first: int, before: Carried, least: int) -> _Attem
     return None
 
 
-def _attempt(contour: Contour, indices: Sequence[int], before: Carried) -> _Attempt | None:
-    """Solve a stretch; return None if too few data are typed."""
+def _attempt(contour: TypedContour, indices: Sequence[int], before: Carried) -> _Attempt | None:
+    """Solve a run; return None if too few data are typed."""
     if not contour.readings[indices[-1]].known.keys() & ENDING:
         return None
     run = _run(contour, indices, before)
     return _Attempt(tuple(indices), run, search(run)) if run.enough else None
 
 
-def _narrowed(contour: Contour, attempt: _Attempt, before: Carried) -> _Attempt:
-    """Extend the stretch by the segments tied to its end while they leave fewer answers."""
+def _narrowed(contour: TypedContour, attempt: _Attempt, before: Carried) -> _Attempt:
+    """Extend the run by the segments tied to its end while they leave fewer answers."""
     best, indices, count = attempt, list(attempt.indices), len(attempt.indices)
     while len(best.search.answers) > 1 and len(indices) < MAX_RUN_LENGTH:
         after = _next(contour, indices[-1])
@@ -210,8 +210,8 @@ def _rounded(pieces: Sequence[Piece]) -> tuple[float, ...]:
     return tuple(round(value, 4) for piece in pieces for value in (*piece.end, *getattr(piece, "center", ())))
 
 
-def _unsolved(contour: Contour, first: int, before: Carried) -> _Attempt:
-    """Return the stretch whose missing data are reported: up to the first typed end, else up to the longest."""
+def _unsolved(contour: TypedContour, first: int, before: Carried) -> _Attempt:
+    """Return the run whose missing data are reported: up to the first typed end, else up to the longest."""
     *_, indices = _longer_and_longer(contour, first)
     run = _run(contour, indices, before)
     return _Attempt(indices, run, search(run))
@@ -220,14 +220,14 @@ def _unsolved(contour: Contour, first: int, before: Carried) -> _Attempt:
 # what is typed
 
 
-def _run(contour: Contour, indices: Sequence[int], before: Carried) -> Run:
+def _run(contour: TypedContour, indices: Sequence[int], before: Carried) -> Run:
     assert before.point is not None
     starts = (before.point, *repeat(None, len(indices) - 1))
     elements = tuple(_element(contour, *each, indices) for each in zip(indices, starts, strict=True))
     return Run(before.point, before.heading, elements)
 
 
-def _element(contour: Contour, index: int, start: Point | None, indices: Sequence[int]) -> Element:
+def _element(contour: TypedContour, index: int, start: Point | None, indices: Sequence[int]) -> Element:
     segment, known = contour.segments[index], contour.readings[index].known
     data = {name: value for name, value in known.items() if name not in _NO_SHAPE}
     if known.get("parallel") is None:
@@ -257,8 +257,8 @@ def _implied_by_angle(data: dict[str, float], start: Point) -> list[str]:
 _NO_SHAPE = ("z_end", "feed", "pick_x", "pick_y", "parallel", "angle_inc", "start_angle_inc")
 
 
-def _parallel(contour: Contour, index: int, indices: Sequence[int]) -> Parallel | None:
-    """Return the target of PARALLEL TO: the index of a line in the stretch, or a solved line before it."""
+def _parallel(contour: TypedContour, index: int, indices: Sequence[int]) -> Parallel | None:
+    """Return the target of PARALLEL TO: the index of a line in the run, or a solved line before it."""
     target = contour.readings[index].known.get("parallel")
     if target is None or parallel_fault(contour, index) is not None:
         return None
@@ -269,7 +269,7 @@ def _parallel(contour: Contour, index: int, indices: Sequence[int]) -> Parallel 
     return line_through(piece.start, heading_at(piece, piece.start)) if isinstance(piece, Line) else None
 
 
-def parallel_fault(contour: Contour, index: int) -> Finding | None:
+def parallel_fault(contour: TypedContour, index: int) -> Finding | None:
     """Return why the number in PARALLEL TO is not allowed, None if it is."""
     target = contour.readings[index].known.get("parallel")
     if target is None:
@@ -284,13 +284,13 @@ def parallel_fault(contour: Contour, index: int) -> Finding | None:
     return Finding("PARALLEL_TO", Severity.ERROR, text, field="parallel")
 
 
-def place_faults(contour: Contour, index: int) -> tuple[Finding, ...]:
+def place_faults(contour: TypedContour, index: int) -> tuple[Finding, ...]:
     """Return the faults in a segment's references to other segments."""
     faults = (tangent_fault(contour, index), parallel_fault(contour, index), _relative_fault(contour, index))
     return tuple(fault for fault in faults if fault is not None)
 
 
-def _relative_fault(contour: Contour, index: int) -> Finding | None:
+def _relative_fault(contour: TypedContour, index: int) -> Finding | None:
     known = contour.readings[index].known
     for name, label in (("angle_inc", "XY ANGLE"), ("start_angle_inc", "START ANGLE")):
         if name in known and index == 0:
@@ -302,8 +302,8 @@ def _relative_fault(contour: Contour, index: int) -> Finding | None:
 # what comes out
 
 
-def _result(contour: Contour, attempt: _Attempt, own_draft: Draft) -> Stretch:
-    """Return the drafts of a stretch, and its run: solved, or waiting for a pick or for data, with the reason."""
+def _result(contour: TypedContour, attempt: _Attempt, own_draft: Draft) -> DraftedRun:
+    """Return the drafts of a run and the run itself: solved, or waiting for a pick or for data, with the reason."""
     picked = _picked(contour, attempt)
     answers = _answers(attempt, picked)
     taken, finding = _taken(contour, attempt, answers, picked)
@@ -320,7 +320,7 @@ def _result(contour: Contour, attempt: _Attempt, own_draft: Draft) -> Stretch:
     return _drafts(contour, attempt, own_draft.before, results), run
 
 
-def _picked(contour: Contour, attempt: _Attempt) -> Picked | None:
+def _picked(contour: TypedContour, attempt: _Attempt) -> Picked | None:
     """Return the answers near the operator's pick if the steps do not solve the run; None without a usable pick."""
     known = contour.readings[attempt.indices[0]].known
     if attempt.search.stuck is None or attempt.run.missing > 0 or not ("pick_x" in known and "pick_y" in known):
@@ -342,7 +342,7 @@ def _answers(attempt: _Attempt, picked: Picked | None) -> tuple[RunAnswer, ...]:
 
 
 def _taken(
-    contour: Contour, attempt: _Attempt, answers: tuple[RunAnswer, ...], picked: Picked | None
+    contour: TypedContour, attempt: _Attempt, answers: tuple[RunAnswer, ...], picked: Picked | None
 ) -> tuple[int | None, Finding | None]:
     """Return the index of the answer in force, or the finding that explains why there is none."""
     run, result = attempt.run, attempt.search
@@ -361,7 +361,7 @@ def _taken(
     return None, reasons.pick_solution(run, len(answers), picked=choice is not None)
 
 
-def _why_stuck(contour: Contour, run: Run, stuck: Branch, *, tried: bool) -> Finding:
+def _why_stuck(contour: TypedContour, run: Run, stuck: Branch, *, tried: bool) -> Finding:
     if run.missing > 0:
         return reasons.missing(stuck, run.missing, _may_be_tangent(contour, stuck))
     for index in range(1, len(run.elements)):
@@ -370,7 +370,7 @@ def _why_stuck(contour: Contour, run: Run, stuck: Branch, *, tried: bool) -> Fin
     return reasons.not_yet(run, tried=tried)
 
 
-def _may_be_tangent(contour: Contour, stuck: Branch) -> int | None:
+def _may_be_tangent(contour: TypedContour, stuck: Branch) -> int | None:
     """Return the number of the first segment of a run where TANGENT YES would add a value.
 
     It adds none on segment 1, after a BLEND ARC or CHAMFER, or if both headings at the joint are already known.
@@ -395,8 +395,8 @@ def _on_same_curve(branch: Branch, joint: int) -> bool:
     return circles and centers[0] is not None and centers[1] is not None
 
 
-def _determined(contour: Contour, pieces: dict[int, Piece], before: Carried) -> dict[int, SegmentResult]:
-    """Fill the blanks of a solved stretch's segments; return their results by index."""
+def _determined(contour: TypedContour, pieces: dict[int, Piece], before: Carried) -> dict[int, SegmentResult]:
+    """Fill the blanks of a solved run's segments; return their results by index."""
     start = before.point
     for number, piece in pieces.items():
         segment, reading = contour.segments[number - 1], contour.readings[number - 1]
@@ -408,8 +408,8 @@ def _determined(contour: Contour, pieces: dict[int, Piece], before: Carried) -> 
     return {number - 1: SegmentResult(piece, piece.end) for number, piece in pieces.items()}
 
 
-def _waiting(contour: Contour, attempt: _Attempt, own_draft: Draft, finding: Finding) -> dict[int, SegmentResult]:
-    """Return the results of an undetermined stretch by index; the finding goes to the segment it names."""
+def _waiting(contour: TypedContour, attempt: _Attempt, own_draft: Draft, finding: Finding) -> dict[int, SegmentResult]:
+    """Return the results of an undetermined run by index; the finding goes to the segment it names."""
     results = {
         index: SegmentResult(sketch=sketch) for index, sketch in zip(attempt.indices, _sketches(attempt), strict=True)
     }
@@ -425,9 +425,9 @@ def _waiting(contour: Contour, attempt: _Attempt, own_draft: Draft, finding: Fin
 
 
 def _drafts(
-    contour: Contour, attempt: _Attempt, before: Carried, results: dict[int, SegmentResult]
+    contour: TypedContour, attempt: _Attempt, before: Carried, results: dict[int, SegmentResult]
 ) -> tuple[Draft, ...]:
-    """Return the drafts of a stretch's segments, including corners, each from what the one before passes on."""
+    """Return the drafts of a run's segments, including corners, each from what the one before passes on."""
     drafts: list[Draft] = []
     for index in range(attempt.indices[0], attempt.indices[-1] + 1):
         segment, reading = contour.segments[index], contour.readings[index]
