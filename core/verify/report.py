@@ -158,10 +158,10 @@ def _over_run(over_run: OverRun) -> Finding:
         text = "Over-run at X {x} Y {y}: the ends are lead-in and lead-out."
         return Finding("OVER_RUN", Severity.INFO, text, at=over_run.at)
     length, on = max(over_run.lead_in, over_run.lead_out), _number(over_run.last_number)
-    text = f"START is on segment {on}; {{value}} behind it is taken for lead-out. Check START."
+    text = f"START is on segment {on}; the last {{value}}, past START, is taken for lead-out. Check START."
     if over_run.lead_in > over_run.lead_out:
         on = _number(over_run.first_number)
-        text = f"The contour ends on segment {on}; {{value}} before that is taken for lead-in. Check START."
+        text = f"The contour ends on segment {on}; the first {{value}}, before it, is taken for lead-in. Check START."
     return Finding("OVER_RUN", Severity.WARNING, text, at=over_run.at, value=length)
 
 

@@ -263,14 +263,17 @@ def test_a_lead_has_at_most_one_bend_and_none_on_the_part_side() -> None:
 @pytest.mark.parametrize(
     ("contour", "text"),
     [
-        (lines((0, 1.5), (2, 0), (2, 2), (0, 2), (0, 0)), "START is on segment 4; {value} behind it"),
+        (
+            lines((0, 1.5), (2, 0), (2, 2), (0, 2), (0, 0)),
+            "START is on segment 4; the last {value}, past START, is taken for lead-out.",
+        ),
         (
             lines((0, 1.5), (2, 0), (2, 2), (0, 2), (0, 1.2), (0, 0)),
-            "START is on segment 4; {value} behind it",
+            "START is on segment 4; the last {value}, past START, is taken for lead-out.",
         ),
         (
             lines((0, 0), (0, 2), (2, 2), (2, 0), (0, 1.5)),
-            "The contour ends on segment 1; {value} before that",
+            "The contour ends on segment 1; the first {value}, before it, is taken for lead-in.",
         ),
     ],
 )
