@@ -1,10 +1,12 @@
 """Standing walls are what the other passes of a stretch leave of a closed pass's wall.
 
 A bore is opened circle by circle, a counterbore is wider than the bore below it, a boss is cut down to size.  A pass
-cuts the wall of another one away down to its own depth if it runs the same way around, shares no wall with it, and lies
-in its material, at most a cutter's diameter behind the wall, so that nothing stays between them.  Both must have
-something to cut: it comes later, or it is the shallower one.  Above its depth no wall is left that a move could gouge;
-a pass whose whole wall is cut away was roughing.
+cuts the wall of another one away down to its own depth if it runs the same way around and lies behind that wall, in its
+material.  Above its depth no wall is left that a move could gouge.
+
+A pass above the lowest one of the other shape makes a step, and may share walls with it.  Any other pass makes it
+roughing, whose whole wall is cut away: it comes later, shares no wall with it, and is at most a cutter's diameter
+behind, so that nothing stays between them.
 """
 
 from __future__ import annotations
@@ -103,13 +105,18 @@ def standing_walls(passes: Sequence[ClosedPass], side: Side, radius: float) -> l
         shapes[path_key(each.path)].append(row)
     walls, runs = list[StandingWall](), list(shapes.values())
     regions = [passes[rows[0]].region for rows in runs]
-    tree = STRtree(regions)
-    for rows, region in zip(runs, regions, strict=True):
+    tree, grown = STRtree(regions), [region.buffer(2.0 * MAX_CHORD_ERROR) for region in regions]
+    for index, (rows, region) in enumerate(zip(runs, regions, strict=True)):
         path = joined([passes[row].path for row in rows])
-        near = sorted(tree.query(region).tolist())
-        cutting = [row for each in near if _cuts_away(region, regions[each], side, radius) for row in runs[each]]
-        others = [_lowest(row, passes, cutting) for row in rows]
         low = min(passes[row].low for row in rows)
+        near = [each for each in sorted(tree.query(region).tolist()) if _runs_as(region, regions[each])]
+        if _runs_inside(region, side):
+            behind = [each for each in near if _contains(regions[each], region, grown[each])]
+        else:
+            behind = [each for each in near if _contains(region, regions[each], grown[index])]
+        close = [row for each in behind if _is_close(region, regions[each], side, radius) for row in runs[each]]
+        steps = [passes[row] for each in behind for row in runs[each] if passes[row].high > low + ON_PATH]
+        others = [_lowest([*steps, *_cutting(row, passes, close)]) for row in rows]
         highest = None if None in others else max((each for each in others if each), key=lambda other: other.high)
         if highest is None:
             walls.append(StandingWall(path, low))
@@ -118,20 +125,36 @@ def standing_walls(passes: Sequence[ClosedPass], side: Side, radius: float) -> l
     return walls
 
 
-def _lowest(row: int, passes: Sequence[ClosedPass], cutting: Sequence[int]) -> ClosedPass | None:
-    """Return the lowest of the passes `cutting` the wall of pass `row` away, later or from above; None without one."""
-    others = [passes[index] for index in cutting if index > row or passes[index].high > passes[row].low + ON_PATH]
-    return min(others, key=lambda other: other.high, default=None)
+def _cutting(row: int, passes: Sequence[ClosedPass], close: Sequence[int]) -> list[ClosedPass]:
+    """Return which of the passes `close` behind the wall of pass `row` cut it away, later or from above."""
+    return [passes[index] for index in close if index > row or passes[index].high > passes[row].low + ON_PATH]
 
 
-def _cuts_away(wall: Polygon, other: Polygon, side: Side, radius: float) -> bool:
-    """True if the other pass lies within the material of the wall, at most a cutter's diameter behind it."""
+def _lowest(passes: Sequence[ClosedPass]) -> ClosedPass | None:
+    """Return the lowest of passes; None without one."""
+    return min(passes, key=lambda each: each.high, default=None)
+
+
+def _runs_as(wall: Polygon, other: Polygon) -> bool:
+    """True if both passes enclose something and run the same way around."""
+    return not wall.is_empty and not other.is_empty and wall.exterior.is_ccw is other.exterior.is_ccw
+
+
+def _contains(outer: Polygon, inner: Polygon, grown: Polygon) -> bool:
+    """True if a region, `grown` by what its chords may be off, contains a smaller one; both may share walls."""
+    return bool(outer.area > inner.area and grown.contains(inner))
+
+
+def _is_close(wall: Polygon, other: Polygon, side: Side, radius: float) -> bool:
+    """True if a pass behind the wall shares no wall with it, and is nowhere farther than a cutter's diameter."""
     if wall.exterior.distance(other.exterior) <= 2.0 * MAX_CHORD_ERROR:
         return False
-    counterclockwise = bool(wall.exterior.is_ccw)
-    if counterclockwise != other.exterior.is_ccw:
-        return False
     reach = 2.0 * (radius + MAX_CHORD_ERROR)
-    if counterclockwise is (side is Side.LEFT):  # the cutter runs inside
-        return bool(other.contains(wall) and wall.contains(other.buffer(-reach)))
-    return bool(wall.contains(other) and other.buffer(reach).contains(wall))
+    if _runs_inside(wall, side):
+        return bool(wall.contains(other.buffer(-reach)))
+    return bool(other.buffer(reach).contains(wall))
+
+
+def _runs_inside(wall: Polygon, side: Side) -> bool:
+    """True if the cutter runs inside a closed pass."""
+    return bool(wall.exterior.is_ccw) is (side is Side.LEFT)

@@ -167,3 +167,68 @@ def test_a_plunge_beside_the_wide_pass_gouges_the_bore_below_it() -> None:
     findings = list(judged_findings(judge_run(ran(text.format(""), "fanuc:a", t1=10.0))))
     (gouge,) = [finding for finding in findings if finding.severity is Severity.ERROR]
     assert (gouge.line, round(gouge.value or 0.0, 3)) == (12, 0.647)
+
+
+STEPS = {
+    "pocket": ("X30. Y20.", "X0. Y20.", "Y0.\nX{0}.\nY40.\nX0.\nY20.\n"),
+    "boss": ("X-30. Y20.", "X0. Y20.", "Y40.\nX{0}.\nY0.\nX0.\nY20.\n"),
+    # the wall of the deep pass ends on a slanting wall of the wide one, rounded
+    "triangle": ("X13. Y11.", "X15. Y5.", "X{0}\nX20. Y40.\nX0. Y0.\nX15. Y5.\n"),
+}
+"""Where the tool starts, where a pass begins, and a pass of the size {0}."""
+
+
+def step(shape: str, passes: list[tuple[str, float]]) -> list[Finding]:
+    """What is said of passes of these sizes and heights from one point on, with a tool of 12."""
+    start, first, once = STEPS[shape]
+    around = "".join(f"Z{height}\n{once.format(size)}" for size, height in passes)
+    text = f"G21 G17 G40 G90 F400\nT1 M6\nG0 {start}\nG1 Z-1.\nG41 D1 {first}\n{around}G40 {start}\nM30\n"
+    return list(judged_findings(judge_run(ran(text, "fanuc:a", t1=12.0))))
+
+
+@pytest.mark.parametrize(
+    ("shape", "passes"),
+    [
+        ("pocket", [("50", -10), ("60", -5)]),
+        ("pocket", [("60", -5), ("50", -10)]),
+        # more than a cutter's diameter wider
+        ("pocket", [("90", -5), ("50", -10)]),
+        ("pocket", [("50", -3), ("60", -3), ("50", -6), ("60", -6), ("50", -9)]),
+        ("triangle", [("60. Y20.", -5), ("31.7 Y10.567", -10)]),
+        ("boss", [("60", -10), ("50", -5)]),
+        ("boss", [("50", -5), ("60", -10)]),
+        ("boss", [("90", -10), ("50", -5)]),
+        ("boss", [("50", -3), ("60", -3), ("50", -6), ("60", -6), ("60", -9)]),
+    ],
+)
+def test_a_step_may_share_walls_with_the_deeper_pass(shape: str, passes: list[tuple[str, float]]) -> None:
+    findings = step(shape, passes)
+    assert not errors(findings), findings
+    assert [finding.severity for finding in findings if finding.code == "ROUGHING"] == [Severity.WARNING]
+
+
+@pytest.mark.parametrize(
+    ("shape", "passes"),
+    [
+        # one outline in two depths, with a wrong coordinate in the last one
+        ("pocket", [("50", -5), ("60", -10)]),
+        ("pocket", [("50", -5), ("60", -5)]),
+        ("boss", [("60", -5), ("50", -10)]),
+        ("boss", [("60", -5), ("50", -5)]),
+    ],
+)
+def test_a_pass_that_shares_a_wall_and_is_no_shallower_is_a_wall(shape: str, passes: list[tuple[str, float]]) -> None:
+    findings = step(shape, passes)
+    assert "GOUGE" in errors(findings)
+    assert not [finding for finding in findings if finding.code == "ROUGHING"]
+
+
+@pytest.mark.parametrize(("dip", "gouges"), [("", []), ("Z-6.\n", [12])])
+def test_a_plunge_beyond_the_shared_wall_gouges_the_step(dip: str, gouges: list[int]) -> None:
+    """The wide pass runs 10 past the wall of the deep one; a plunge there cuts the floor of the step."""
+    text = (
+        "G21 G17 G40 G90 F400\nT1 M6\nG0 X30. Y20.\nG1 Z-10.\nG41 D1 X0. Y20.\nY0.\nX50.\nY40.\nX0.\nY20.\n"
+        f"Z-5.\nY0.\nX70.\n{dip}Y40.\nX0.\nY20.\nG40 X30. Y20.\nM30\n"
+    )
+    findings = list(judged_findings(judge_run(ran(text, "fanuc:a", t1=12.0))))
+    assert bool(gouges) is ("GOUGE" in errors(findings)), findings
