@@ -14,6 +14,7 @@ from core.controls.judging.contours_and_leads import (
     RowRange,
     between_lead_arcs,
     blend_leads,
+    closed_passes,
     contours_of,
     has_long_leads,
     is_closed,
@@ -25,7 +26,13 @@ from core.controls.judging.crossing_contours import ContourCut, cuts_of_other_co
 from core.controls.judging.moves_above import Z_COLUMN, Divided, divided, heights_above
 from core.controls.judging.rapids_at_depth import CutContour, UncompensatedCut, highest_cut, moves_through
 from core.controls.judging.repeated_passes import path_key, without_repeats
-from core.controls.judging.standing_walls import ClosedPass, StandingWall, closed_passes_of, standing_walls
+from core.controls.judging.standing_walls import (
+    ClosedPass,
+    StandingWall,
+    closed_passes_of,
+    standing_walls,
+    walls_of,
+)
 from core.controls.moves import Moves, Plane
 from core.controls.registry import arc_tolerance
 from core.geometry.nearby import BoxTree, near_pairs
@@ -196,9 +203,7 @@ def _judge_pieces(run: ControlRun, stretch: Stretch, parted: Divided) -> list[Ju
     contours = Contours.of(list(surfaces.values()))
     passes = [each for piece in parted.pieces for each in _closed_passes(piece)]
     cut_away = {
-        path_key(without_repeats(wall.path)): wall
-        for wall in standing_walls(passes, stretch.side, stretch.radius)
-        if wall.cut_away_by
+        path_key(without_repeats(wall.path)): wall for wall in standing_walls(passes, stretch.side) if wall.cut_away_by
     }
     unjudged: list[Judged] = []
     for piece, results in zip(parted.pieces, judged, strict=True):
@@ -265,18 +270,21 @@ def _judge_stretch(run: ControlRun, stretch: Stretch) -> list[Judged]:
     open_lines = {rows: frozenset(whole.numbers[slice(*rows)].tolist()) for rows in open_contours}
     surfaces = [programmed_surface(part) for part in parts] if len(parts) > 1 else [whole]
     ends = list(accumulate(map(len, surfaces), initial=0))
+    inner = [_within_part(contours, rows, open_lines) for rows in pairwise(ends)]
+    passes = [
+        closed_passes_of(cut, list(rows), _heights(part, cut), part.radius)
+        for part, cut, rows in zip(parts, surfaces, inner, strict=True)
+        if len(parts) > 1
+    ]
     results, unjudged = list[Judged](), list[Judged]()
     for index, (part, rows) in enumerate(zip(parts, pairwise(ends), strict=True)):
-        inner = {
-            (first - rows[0], last - rows[0]): open_lines.pop(contour, frozenset())
-            for contour in contours
-            for first, last in _clipped([contour], rows)
-        }
-        judgments = _judge_part(run, part, surfaces[index], inner or {(0, len(surfaces[index])): frozenset()})
         same_side = _same_side(parts, index)
+        alike = [each for other in same_side for each in passes[other]] if len(same_side) > 1 else []
+        judgments = _judge_part(run, part, surfaces[index], inner[index], alike)
         if len(same_side) > 1:
             reach = (ends[same_side[0]], ends[same_side[-1] + 1])
-            judgments[0], unknown = _with_other_parts(run, judgments[0], whole, _clipped(contours, reach), rows)
+            others = _clipped(contours, reach)
+            judgments[0], unknown = _with_other_parts(run, judgments[0], whole, others, rows, alike)
             unjudged += unknown
         judgments[0] = replace(judgments[0], by_itself=0 < index == same_side[0])
         results += judgments
@@ -299,6 +307,18 @@ def _clipped(contours: Sequence[RowRange], rows: RowRange) -> list[RowRange]:
     return [(first, last) for first, last in clipped if first < last]
 
 
+def _within_part(
+    contours: Sequence[RowRange], rows: RowRange, open_lines: dict[RowRange, frozenset[float]]
+) -> dict[RowRange, frozenset[float]]:
+    """Return what of the contours lies in a part's rows, with the lines of an open one in the first part it is in."""
+    inner = {
+        (first - rows[0], last - rows[0]): open_lines.pop(contour, frozenset())
+        for contour in contours
+        for first, last in _clipped([contour], rows)
+    }
+    return inner or {(0, rows[1] - rows[0]): frozenset()}
+
+
 def _with_unjudged(results: list[Judged], unjudged: Sequence[Judged]) -> list[Judged]:
     """Return the results, and of the unjudged ones one for each reason that no result gives."""
     reasons = {result.verdict.uneven_arc for result in results if not result.verdict.judged}
@@ -307,25 +327,46 @@ def _with_unjudged(results: list[Judged], unjudged: Sequence[Judged]) -> list[Ju
 
 
 def _with_other_parts(
-    run: ControlRun, result: Judged, whole: Path, contours: Sequence[RowRange], rows: RowRange
+    run: ControlRun,
+    result: Judged,
+    whole: Path,
+    contours: Sequence[RowRange],
+    rows: RowRange,
+    passes: Sequence[ClosedPass],
 ) -> tuple[Judged, list[Judged]]:
     """Add the cuts into contours outside the part's rows; also return the contours that cannot be judged.
 
-    Gouges are assigned by row, because a subprogram's lines may be in several parts.
+    If there are any, walls that other `passes` cut away are left out.  Gouges are assigned by row, because a
+    subprogram's lines may be in several parts.
     """
-    numbered, surfaces = replace(whole, numbers=np.arange(len(whole), dtype=np.float64)), list[Path]()
+    numbered, surfaces = replace(whole, numbers=np.arange(len(whole), dtype=np.float64)), dict[RowRange, Path]()
     for first, last in contours:
         edges = np.clip((first, *rows, last), first, last).tolist()
         # each separately, because a pass of another part does not repeat one of this part
-        surfaces.append(joined([without_repeats(numbered.part(*both)) for both in pairwise(edges)]))
-    gouges, unjudged, slack = _cuts_of(run, result.stretch, result.center, surfaces, Leads.SEGMENTS)
+        surfaces[first, last] = joined([without_repeats(numbered.part(*both)) for both in pairwise(edges)])
+    stretch, center = result.stretch, result.center
+    gouges, unjudged, slack = _cuts_of(run, stretch, center, list(surfaces.values()), Leads.SEGMENTS)
+    cut_away = {wall.shape: wall for wall in standing_walls(passes, stretch.side) if wall.cut_away_by} if gouges else {}
+    if cut_away:
+        gouges = []
+        for contour, surface in surfaces.items():
+            runs = closed_passes(whole, contour) if is_closed(whole, contour) else ()
+            walls = {each: cut_away.get(path_key(whole.part(*each))) for each in runs}
+            if not any(walls.values()):
+                gouges += _cuts_of(run, stretch, center, [surface], Leads.SEGMENTS)[0]
+                continue
+            for each, wall in walls.items():
+                if wall is None:
+                    gouges += _cuts_of(run, stretch, center, [numbered.part(*each)], Leads.SEGMENTS)[0]
+                elif wall.stands:
+                    gouges += _cuts_below(run, stretch, wall.top, numbered.part(*each), Leads.SEGMENTS)
     others = [
         replace(gouge, surface_number=float(whole.numbers[int(gouge.surface_number)]))
         for gouge in gouges
         if not rows[0] <= gouge.surface_number < rows[1]
     ]
     unknown = [replace(each, verdict=_numbered(each.verdict, whole)) for each in unjudged]
-    return _with_gouges(result, others, slack, (whole, result.center)), unknown
+    return _with_gouges(result, others, slack, (whole, center)), unknown
 
 
 def _numbered(verdict: Verdict, surface: Path) -> Verdict:
@@ -337,12 +378,17 @@ def _numbered(verdict: Verdict, surface: Path) -> Verdict:
 
 
 def _judge_part(
-    run: ControlRun, stretch: Stretch, whole: Path, contours: Mapping[RowRange, frozenset[float]]
+    run: ControlRun,
+    stretch: Stretch,
+    whole: Path,
+    contours: Mapping[RowRange, frozenset[float]],
+    alike: Sequence[ClosedPass],
 ) -> list[Judged]:
     """Return the verdict on each contour of a part with one side and radius; the first one has the leads.
 
     `contours` have all lines of an open one among closed ones.  If a contour is gouged, walls that other passes cut
-    away are left out, and of an open contour the arcs that lead in and out.
+    away are left out, and of an open contour the arcs that lead in and out.  `alike`: the passes of all parts of its
+    side, this one too, if there are several.
     """
     center = _center_path(run, stretch)
     accepted = _accepted_difference(run, whole, center)
@@ -356,13 +402,14 @@ def _judge_part(
     results = judged(walls, alone=len(walls) == 1)
     if any(result.verdict.gouges for result in results):
         spans = [between_lead_arcs(whole, each, stretch, cut_short=run.stops_within(stretch)) for each in rows]
-        passes = closed_passes_of(whole, spans, _heights(stretch, whole))
-        standing = standing_walls(passes, stretch.side, stretch.radius)
+        passes = closed_passes_of(whole, spans, _heights(stretch, whole), stretch.radius)
+        standing = walls_of(standing_walls(alike or passes, stretch.side), passes)
         cut_away = tuple(wall for wall in standing if wall.cut_away_by)
         if cut_away:
             open_walls = _walls(whole, [span for span in spans if not is_closed(whole, span)])
+            walls = [*(wall for wall in standing if wall.stands), *open_walls]
             # two passes or more: one cuts another one away
-            results = judged([*(wall for wall in standing if wall.stands), *open_walls], alone=False)
+            results = judged(walls or [replace(standing[0], top=-np.inf)], alone=False)
         elif spans != rows:
             walls = _walls(whole, spans)
             results = judged(walls, alone=len(walls) == 1)
@@ -388,7 +435,7 @@ def _walls(whole: Path, contours: Sequence[RowRange]) -> list[StandingWall]:
 def _closed_passes(stretch: Stretch) -> list[ClosedPass]:
     """Return the closed passes of a stretch of one side and radius."""
     whole, contours = split_where_it_closes(programmed_surface(stretch))
-    return closed_passes_of(whole, contours, _heights(stretch, whole))
+    return closed_passes_of(whole, contours, _heights(stretch, whole), stretch.radius)
 
 
 def _heights(stretch: Stretch, surface: Path) -> Floats:

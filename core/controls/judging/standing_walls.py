@@ -13,7 +13,7 @@ from __future__ import annotations
 
 from collections import defaultdict
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from math import inf
 from typing import Final
 
@@ -37,7 +37,7 @@ MIN_POINTS: Final = 4
 
 @dataclass(frozen=True, eq=False, slots=True)
 class ClosedPass:
-    """A closed run of moves, the heights of its lowest and highest point, and what it encloses.
+    """A closed run of moves, what it encloses, the heights of its lowest and highest point, and the cutter's radius.
 
     The region is empty if the run crosses itself: then it cuts nothing away, and nothing cuts it away.
     """
@@ -46,6 +46,12 @@ class ClosedPass:
     region: Polygon
     low: float
     high: float
+    radius: float
+
+    @property
+    def shape(self) -> PathKey:
+        """The same key for passes of one shape."""
+        return path_key(self.path)
 
     @property
     def numbers(self) -> tuple[float, float]:
@@ -57,13 +63,14 @@ class ClosedPass:
 class StandingWall:
     """A wall from its lowest point up to the height above which another pass cuts it away, if one does.
 
-    `cut_away_by` has the numbers of that pass's first and last move.
+    `cut_away_by` has the numbers of that pass's first and last move; `shape` is that of the passes that make the wall.
     """
 
     path: Path
     low: float = -inf
     top: float = inf
     cut_away_by: tuple[float, float] | None = None
+    shape: PathKey = ()
 
     @property
     def stands(self) -> bool:
@@ -76,7 +83,7 @@ class StandingWall:
         return float(self.path.numbers[0]), float(self.path.numbers[-1])
 
 
-def closed_passes_of(path: Path, contours: Sequence[RowRange], heights: Floats) -> list[ClosedPass]:
+def closed_passes_of(path: Path, contours: Sequence[RowRange], heights: Floats, radius: float) -> list[ClosedPass]:
     """Return the passes of the closed contours; `heights` (n, 2) has those of both ends of each piece of the path."""
     return [
         ClosedPass(
@@ -84,6 +91,7 @@ def closed_passes_of(path: Path, contours: Sequence[RowRange], heights: Floats) 
             _region(path.part(first, last)),
             float(heights[first:last].min()),
             float(heights[first:last].max()),
+            radius,
         )
         for contour in contours
         if is_closed(path, contour)
@@ -98,11 +106,19 @@ def _region(path: Path) -> Polygon:
     return region if region.is_valid and region.area > 0.0 else Polygon()
 
 
-def standing_walls(passes: Sequence[ClosedPass], side: Side, radius: float) -> list[StandingWall]:
+def walls_of(walls: Sequence[StandingWall], passes: Sequence[ClosedPass]) -> list[StandingWall]:
+    """Return the walls that these passes make, without what other passes of the same shapes add to their paths."""
+    paths = defaultdict[PathKey, list[Path]](list)
+    for each in passes:
+        paths[each.shape].append(each.path)
+    return [replace(wall, path=joined(paths[wall.shape])) for wall in walls if wall.shape in paths]
+
+
+def standing_walls(passes: Sequence[ClosedPass], side: Side) -> list[StandingWall]:
     """Return the walls of passes in the order of the program; passes of one shape at several heights make one wall."""
     shapes = defaultdict[PathKey, list[int]](list)
     for row, each in enumerate(passes):
-        shapes[path_key(each.path)].append(row)
+        shapes[each.shape].append(row)
     walls, runs = list[StandingWall](), list(shapes.values())
     regions = [passes[rows[0]].region for rows in runs]
     tree, grown = STRtree(regions), [region.buffer(2.0 * MAX_CHORD_ERROR) for region in regions]
@@ -114,14 +130,14 @@ def standing_walls(passes: Sequence[ClosedPass], side: Side, radius: float) -> l
             behind = [each for each in near if _contains(regions[each], region, grown[each])]
         else:
             behind = [each for each in near if _contains(region, regions[each], grown[index])]
-        close = [row for each in behind if _is_close(region, regions[each], side, radius) for row in runs[each]]
+        close = [row for each in behind for row in runs[each] if _is_close(region, passes[row], side)]
         steps = [passes[row] for each in behind for row in runs[each] if passes[row].high > low + ON_PATH]
         others = [_lowest([*steps, *_cutting(row, passes, close)]) for row in rows]
         highest = None if None in others else max((each for each in others if each), key=lambda other: other.high)
         if highest is None:
-            walls.append(StandingWall(path, low))
+            walls.append(StandingWall(path, low, shape=passes[rows[0]].shape))
         else:
-            walls.append(StandingWall(path, low, highest.high, highest.numbers))
+            walls.append(StandingWall(path, low, highest.high, highest.numbers, passes[rows[0]].shape))
     return walls
 
 
@@ -145,14 +161,14 @@ def _contains(outer: Polygon, inner: Polygon, grown: Polygon) -> bool:
     return bool(outer.area > inner.area and grown.contains(inner))
 
 
-def _is_close(wall: Polygon, other: Polygon, side: Side, radius: float) -> bool:
-    """True if a pass behind the wall shares no wall with it, and is nowhere farther than a cutter's diameter."""
-    if wall.exterior.distance(other.exterior) <= 2.0 * MAX_CHORD_ERROR:
+def _is_close(wall: Polygon, other: ClosedPass, side: Side) -> bool:
+    """True if a pass behind the wall shares no wall with it, and is nowhere farther than its cutter's diameter."""
+    if wall.exterior.distance(other.region.exterior) <= 2.0 * MAX_CHORD_ERROR:
         return False
-    reach = 2.0 * (radius + MAX_CHORD_ERROR)
+    reach = 2.0 * (other.radius + MAX_CHORD_ERROR)
     if _runs_inside(wall, side):
-        return bool(wall.contains(other.buffer(-reach)))
-    return bool(other.buffer(reach).contains(wall))
+        return bool(wall.contains(other.region.buffer(-reach)))
+    return bool(other.region.buffer(reach).contains(wall))
 
 
 def _runs_inside(wall: Polygon, side: Side) -> bool:

@@ -232,3 +232,46 @@ def test_a_plunge_beyond_the_shared_wall_gouges_the_step(dip: str, gouges: list[
     )
     findings = list(judged_findings(judge_run(ran(text, "fanuc:a", t1=12.0))))
     assert bool(gouges) is ("GOUGE" in errors(findings)), findings
+
+
+def with_two_offsets(passes: str, start: str = "X0. Y0.", depth: str = "Z-10.") -> list[Finding]:
+    """What is said of passes with D1 of a tool of 12 and D2 of 12.5 in one stretch."""
+    text = f"G21 G17 G40 G90 F400\nT1 M6\nG0 {start}\nG1 {depth}\nG41 {passes}G40 {start}\nM30\n"
+    return list(judged_findings(judge_run(ran(text, "fanuc:a", t1=12.0, t2=12.5))))
+
+
+IN_BORE = "G1 X{0}. Y-10.\nG3 X{1}. Y0. R10.\nG3 I-{1}.\nG3 X{0}. Y10. R10.\nG1 X0. Y0.\n"
+BORE, COUNTERBORE = IN_BORE.format(10, 20), IN_BORE.format(16, 26)
+AROUND_BOSS = "G1 X-{1}. Y-10.\nG3 X-{0}. Y0. R10.\nG2 I{0}.\nG3 X-{1}. Y10. R10.\nG1 X-60. Y0.\n"
+NECK, FOOT = AROUND_BOSS.format(20, 30), AROUND_BOSS.format(24, 34)
+TWO_OFFSETS = {
+    "bore, then counterbore": (f"D1 {BORE}G1 Z-5.\nD2 {COUNTERBORE}", "X0. Y0.", "Z-10."),
+    "counterbore, then bore": (f"D2 {COUNTERBORE}Z-10.\nD1 {BORE}", "X0. Y0.", "Z-5."),
+    "opened circle by circle": ("D2 G1 X20.\nG3 I-20.\nG1 X26.\nG3 I-26.\nD1 G1 X30.\nG3 I-30.\n", "X0. Y0.", "Z-9."),
+    "neck, then foot": (f"D2 {NECK}Z-10.\nD1 {FOOT}", "X-60. Y0.", "Z-5."),
+    "foot, then neck": (f"D2 {FOOT}Z-5.\nD1 {NECK}", "X-60. Y0.", "Z-10."),
+}
+
+
+@pytest.mark.parametrize("case", TWO_OFFSETS)
+def test_passes_of_several_sizes_may_have_offsets_of_their_own(case: str) -> None:
+    findings = with_two_offsets(*TWO_OFFSETS[case])
+    assert not errors(findings), findings
+    told = [finding.severity for finding in findings if finding.code == "ROUGHING"]
+    assert set(told) <= {Severity.WARNING}
+
+
+@pytest.mark.parametrize(
+    ("passes", "start", "depth"),
+    [
+        # at one depth the bore has nothing to cut behind the counterbore
+        (f"D2 {COUNTERBORE}D1 {BORE}", "X0. Y0.", "Z-5."),
+        (f"D2 {NECK}D1 {FOOT}", "X-60. Y0.", "Z-5."),
+        # the second pass is deeper than the first one, and wider
+        (f"D1 {BORE}G1 Z-15.\nD2 G1 X-40. Y0.\n{COUNTERBORE}", "X0. Y0.", "Z-10."),
+        # the lead of the bore starts too near to its wall
+        (f"D2 {COUNTERBORE}Z-10.\nD1 {BORE.replace('X10. Y-10.', 'X10. Y-16.')}", "X0. Y0.", "Z-5."),
+    ],
+)
+def test_a_gouge_with_offsets_of_their_own_is_found(passes: str, start: str, depth: str) -> None:
+    assert errors(with_two_offsets(passes, start, depth))
