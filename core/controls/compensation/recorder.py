@@ -19,7 +19,10 @@ MAX_WEAR: Final = 0.254
 """Millimeters (0.010 in) up to which a negative radius is the wear of a center path; a larger one flips the side."""
 
 _OUTLINE_JUDGED: Final = "The programmed path is judged as the part's outline, not as a center path with a wear offset."
-_WEAR_LEFT_OUT: Final = "So small a radius is taken for the wear of a center path, and the path is judged without it."
+_WEAR_LEFT_OUT: Final = (
+    "So small a radius is taken for wear: the program is judged as the path of the cutter's center, without the wear. "
+    "If it is the part's outline, the cutter gouges it by half its diameter: correct the offset."
+)
 """What a negative radius is taken to mean."""
 
 

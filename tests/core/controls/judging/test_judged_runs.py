@@ -238,6 +238,14 @@ def test_a_link_through_the_part_between_two_center_paths_is_on_the_wrong_side(
 
 
 @pytest.mark.parametrize("control", WEAR_CONTROLS)
+def test_a_negative_wear_says_what_the_cutter_does_to_an_outline(control: str) -> None:
+    run = ran(CENTER_PATH.format(start=-25, end=-25), control, t1=-0.02)
+    (warning,) = [finding for finding in run.findings if "taken for wear" in finding.text]
+    assert (warning.severity, warning.line) == (Severity.WARNING, 5)
+    assert "If it is the part's outline, the cutter gouges it by half its diameter" in warning.text
+
+
+@pytest.mark.parametrize("control", WEAR_CONTROLS)
 def test_a_larger_negative_radius_is_that_of_a_tool_along_the_outline(control: str) -> None:
     run = ran(CENTER_PATH.format(start=-25, end=-25), control, t1=-0.6)
     assert "GOUGE" in {finding.code for finding in judged_findings(judge_run(run))}
