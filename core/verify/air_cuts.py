@@ -70,7 +70,7 @@ def _air_cuts(pairs: Pairs, radius: float, center: Path) -> tuple[AirCut, ...]:
     whole[pairs.i[along(pairs, radius + pairs.grant)]] = True
     gaps = gaps_of(pairs, whole, radius)
     beyond, numbers = gaps.apart - radius, center.numbers[pairs.pieces.rows[gaps.pieces]]
-    columns = (*numbers, *gaps.ends, gaps.stretches.last - gaps.stretches.first, beyond, gaps.farthest)
+    columns = (*numbers, *gaps.ends, gaps.intervals.last - gaps.intervals.first, beyond, gaps.farthest)
     return tuple(
         AirCut(first, last, point_of(start), point_of(end), length, off, point_of(farthest))
         for first, last, start, end, length, off, farthest in zip(*(column.tolist() for column in columns), strict=True)

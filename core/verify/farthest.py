@@ -1,8 +1,8 @@
-"""Farthest finds where along stretches of one path the distance to another path is largest.
+"""Farthest finds where along intervals of one path the distance to another path is largest.
 
 The distance to a path is the least of the distances to its pieces.  Along a span, the largest distance to any one
 piece, which has a formula, is therefore an upper bound, and the distance at any place a lower bound.  A span whose
-upper bound exceeds the best value known on its stretch is divided where the nearest pieces of its two ends are
+upper bound exceeds the best value known on its interval is divided where the nearest pieces of its two ends are
 equally far, or where a piece that is nearest to both ends is farthest, until both bounds agree within
 `DISTANCE_TOLERANCE`.  If no other piece is nearer there, this takes one step.
 """
@@ -21,14 +21,14 @@ from core.geometry.nearby import changes
 from core.geometry.path import Floats, Points, Rows
 from core.geometry.piece_arrays import PieceArrays, at, fraction
 from core.tolerance import ON_PATH
+from core.verify.intervals import Intervals
 from core.verify.pairs import Pairs, nearest
-from core.verify.stretches import Stretches
 
 DISTANCE_TOLERANCE: Final = 1e-8
 """Millimeters: a largest distance counts as known once its bounds are this close."""
 
 BAND_PIECES: Final = 1_000
-"""Pieces of stretches that are examined at a time."""
+"""Pieces of intervals that are examined at a time."""
 
 MAX_DIVISIONS: Final = 100
 """Divisions after which doubles cannot split a span of any size further."""
@@ -45,7 +45,7 @@ LEAST_SHARE: Final = 1e-3
 
 @dataclass(frozen=True, eq=False, slots=True)
 class Farthest:
-    """(k,) for each stretch: the place, in length traveled, that is farthest from the other path, its point, its
+    """(k,) for each interval: the place, in length traveled, that is farthest from the other path, its point, its
     distance and the first piece of the other path nearest to it."""
 
     place: Floats
@@ -56,7 +56,7 @@ class Farthest:
 
 @dataclass(frozen=True, eq=False, slots=True)
 class _Spans:
-    """m parts of single pieces `index`, each within stretch `owner`; (2, m) fractions, distances and nearest pieces at
+    """m parts of single pieces `index`, each within interval `owner`; (2, m) fractions, distances and nearest pieces at
     both ends."""
 
     owner: Rows
@@ -69,22 +69,22 @@ class _Spans:
         return _Spans(self.owner[rows], self.index[rows], self.t[:, rows], self.apart[:, rows], self.near[:, rows])
 
 
-def farthest(pairs: Pairs, stretches: Stretches, most: float = inf) -> Farthest:
-    """Find the largest distance of each stretch of the pieces from the others.
+def farthest(pairs: Pairs, intervals: Intervals, most: float = inf) -> Farthest:
+    """Find the largest distance of each interval of the pieces from the others.
 
-    No distance is larger than `most`, so the search of a stretch ends at a place that far away.
+    No distance is larger than `most`, so the search of an interval ends at a place that far away.
     """
-    # stretches are independent of each other: some at a time bound the memory in use
-    index = pairs.stations[1:-1].searchsorted(np.array((stretches.first, stretches.last)))
+    # intervals are independent of each other: some at a time bound the memory in use
+    index = pairs.stations[1:-1].searchsorted(np.array((intervals.first, intervals.last)))
     begins = changes((index[1] - index[0] + 1).cumsum() // BAND_PIECES).tolist()
-    edges = [0, *begins[1:], len(stretches)]
-    batches = [_farthest(pairs, stretches.part(*rows), most) for rows in pairwise(edges)]
+    edges = [0, *begins[1:], len(intervals)]
+    batches = [_farthest(pairs, intervals.part(*rows), most) for rows in pairwise(edges)]
     columns = zip(*((far.place, far.point, far.apart, far.near) for far in batches), strict=True)
     return Farthest(*(np.concatenate(column) for column in columns))
 
 
-def _farthest(pairs: Pairs, stretches: Stretches, most: float) -> Farthest:
-    spans, best = _begin(pairs, stretches)
+def _farthest(pairs: Pairs, intervals: Intervals, most: float) -> Farthest:
+    spans, best = _begin(pairs, intervals)
     for division in range(MAX_DIVISIONS):
         spans = spans.take((best.apart[spans.owner] < most - DISTANCE_TOLERANCE).nonzero()[0])
         bounds, peaks = _bounds(pairs, spans)
@@ -97,7 +97,7 @@ def _farthest(pairs: Pairs, stretches: Stretches, most: float) -> Farthest:
     return best
 
 
-def _look(pairs: Pairs, index: Rows, t: Floats) -> tuple[Points, Floats, Rows]:
+def _nearest_at(pairs: Pairs, index: Rows, t: Floats) -> tuple[Points, Floats, Rows]:
     """Return points of the pieces, their distances from the other path and the first piece nearest to each."""
     points = at(pairs.pieces.take(index), t)
     near = nearest(pairs, index, points)
@@ -105,15 +105,15 @@ def _look(pairs: Pairs, index: Rows, t: Floats) -> tuple[Points, Floats, Rows]:
     return points, np.minimum.reduceat(near.apart, first) if len(first) else near.apart, near.j[first]
 
 
-def _begin(pairs: Pairs, stretches: Stretches) -> tuple[_Spans, Farthest]:
-    """Split the stretches at the joints within them; return the parts and the farthest of their ends."""
-    parts = stretches.cut(pairs.stations[1:-1])
-    owner, index = stretches.index(parts.middle), pairs.stations[1:-1].searchsorted(parts.middle, side="right")
+def _begin(pairs: Pairs, intervals: Intervals) -> tuple[_Spans, Farthest]:
+    """Split the intervals at the joints within them; return the parts and the farthest of their ends."""
+    parts = intervals.cut(pairs.stations[1:-1])
+    owner, index = intervals.index(parts.middle), pairs.stations[1:-1].searchsorted(parts.middle, side="right")
     t = fraction(np.array((parts.first, parts.last)) - pairs.stations[index], pairs.pieces.length[index])
-    none = np.full(len(stretches), -1)
-    best = Farthest(stretches.first, none.astype(np.complex128), np.full(len(stretches), -inf), none)
+    none = np.full(len(intervals), -1)
+    best = Farthest(intervals.first, none.astype(np.complex128), np.full(len(intervals), -inf), none)
     twice = np.tile(index, 2)
-    points, apart, near = _look(pairs, twice, t.ravel())
+    points, apart, near = _nearest_at(pairs, twice, t.ravel())
     best = _better(pairs, best, np.tile(owner, 2), twice, t.ravel(), (points, apart, near))
     return _Spans(owner, index, t, apart.reshape(2, -1), near.reshape(2, -1)), best
 
@@ -121,10 +121,10 @@ def _begin(pairs: Pairs, stretches: Stretches) -> tuple[_Spans, Farthest]:
 def _better(
     pairs: Pairs, best: Farthest, owner: Rows, index: Rows, t: Floats, seen: tuple[Points, Floats, Rows]
 ) -> Farthest:
-    """Return `best`, updated with the places `t` on pieces `index` of stretches `owner` that are farther."""
+    """Return `best`, updated with the places `t` on pieces `index` of intervals `owner` that are farther."""
     points, apart, near = seen
     s = pairs.stations[index] + t * pairs.pieces.length[index]
-    # in each stretch the largest comes first, among equal ones the earliest
+    # in each interval the largest comes first, among equal ones the earliest
     order = np.lexsort((s, -np.round(apart / ON_PATH), owner))
     first = order[changes(owner[order])]
     first = first[apart[first] > best.apart[owner[first]]]
@@ -185,7 +185,7 @@ def _equally_far(pairs: Pairs, spans: _Spans) -> Floats:
 def _divide(pairs: Pairs, spans: _Spans, share: Floats, best: Farthest) -> tuple[_Spans, Farthest]:
     """Divide every span in two at `share` of its length; return the halves and `best`, updated with the new places."""
     t = spans.t[0] + share * (spans.t[1] - spans.t[0])
-    points, apart, near = _look(pairs, spans.index, t)
+    points, apart, near = _nearest_at(pairs, spans.index, t)
     halves = [
         np.array((np.concatenate((ends[0], new)), np.concatenate((new, ends[1]))))
         for ends, new in ((spans.t, t), (spans.apart, apart), (spans.near, near))

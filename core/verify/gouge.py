@@ -14,8 +14,8 @@ from core.geometry.nearby import changes
 from core.geometry.path import Floats, Path, Rows, coordinates
 from core.geometry.piece_arrays import PieceArrays, at, blocks, fraction
 from core.tolerance import GOUGE, JOINED, ON_PATH
+from core.verify.intervals import NO_INTERVALS, Intervals, Parts, joined, merged, within
 from core.verify.pairs import Pairs, measured, uneven_slack
-from core.verify.stretches import NO_STRETCHES, Parts, Stretches, joined, union, within
 from core.verify.verdict import Approach, Gouge
 
 PAIRS_AT_A_TIME: Final = 2_000
@@ -29,14 +29,14 @@ LOOP_GAP: Final = 1.0
 class Gouging:
     """k stretches of the center path that gouge, and for each the deepest place, its distance and its pair (i, j)."""
 
-    stretches: Stretches
+    intervals: Intervals
     place: Floats
     apart: Floats
     i: Rows
     j: Rows
 
     def __len__(self) -> int:
-        return len(self.stretches)
+        return len(self.intervals)
 
 
 def gouging(pairs: Pairs, limit: float) -> Gouging:
@@ -48,12 +48,12 @@ def gouging(pairs: Pairs, limit: float) -> Gouging:
     near = (pairs.least < limits).nonzero()[0]
     if not len(near):
         none = np.zeros(0)
-        return Gouging(NO_STRETCHES, none, none, near, near)
+        return Gouging(NO_INTERVALS, none, none, near, near)
     gaps = LOOP_GAP * _loops(pairs.pieces).astype(np.float64)
     deepest = [_deepest(pairs, _near_parts(pairs, rows, limits[rows]), gaps) for rows in _some_at_a_time(near)]
     parts = _deepest(pairs, joined(deepest), gaps)
-    stretches = Stretches(parts.first, parts.last)
-    return Gouging(stretches, parts.middle, parts.apart, pairs.i[parts.pair], pairs.j[parts.pair])
+    intervals = Intervals(parts.first, parts.last)
+    return Gouging(intervals, parts.middle, parts.apart, pairs.i[parts.pair], pairs.j[parts.pair])
 
 
 def _some_at_a_time(rows: Rows) -> Iterator[Rows]:
@@ -115,11 +115,11 @@ def _deepest(pairs: Pairs, parts: Parts, gaps: Floats) -> Parts:
     For the joining, parts move on by the `gaps` (n,) of their pieces, so that those of two loops do not touch.
     """
     gap = gaps[pairs.i[parts.pair]]
-    stretches = union(parts.first + gap, parts.last + gap)
-    owner, apart = stretches.index(parts.middle + gap), np.round(parts.apart / ON_PATH)
+    intervals = merged(parts.first + gap, parts.last + gap)
+    owner, apart = intervals.index(parts.middle + gap), np.round(parts.apart / ON_PATH)
     order = np.lexsort((parts.pair, apart, owner))
     best = order[changes(owner[order])]
-    first, last = stretches.first - gap[best], stretches.last - gap[best]
+    first, last = intervals.first - gap[best], intervals.last - gap[best]
     return Parts(first, last, parts.middle[best], parts.apart[best], parts.pair[best])
 
 
@@ -139,7 +139,7 @@ def gouges(hits: Gouging, pairs: Pairs, radius: float, surface: Path, numbers: F
         piece.rows,
         numbers[piece.rows],
         surface.numbers[wall.rows],
-        hits.stretches.last - hits.stretches.first,
+        hits.intervals.last - hits.intervals.first,
     )
     every = [
         Gouge(depth, (x, y), (u, v), row, number, segment, extent)
@@ -162,7 +162,7 @@ def _over_seams(hits: Gouging, pairs: Pairs) -> list[tuple[int, int]]:
     last = owner.searchsorted(owner[first], side="right") - 1
     begin, end = loops.searchsorted(owner[first]), loops.searchsorted(owner[first], side="right") - 1
     closed = np.abs(moves.end[end] - moves.start[begin]) <= JOINED
-    at_start = hits.stretches.first[first] <= stations[begin] + JOINED
-    at_end = hits.stretches.last[last] >= stations[end + 1] - JOINED
+    at_start = hits.intervals.first[first] <= stations[begin] + JOINED
+    at_end = hits.intervals.last[last] >= stations[end + 1] - JOINED
     over = closed & at_start & at_end & (first < last)
     return list(zip(first[over].tolist(), last[over].tolist(), strict=True))

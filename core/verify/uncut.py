@@ -14,8 +14,8 @@ from core.geometry.piece import Side, point_of
 from core.geometry.piece_arrays import PieceArrays, at, blocks, fraction
 from core.tolerance import CLOSED, ON_PATH, STOCK
 from core.verify.farthest import farthest
+from core.verify.intervals import Intervals, within
 from core.verify.pairs import Pairs, concentric, covering, nearest, pairs_of, rounding_of
-from core.verify.stretches import Stretches, within
 from core.verify.verdict import Uncut
 
 MAX_POINT_LENGTH: Final = 1e-6
@@ -37,7 +37,7 @@ class Gaps:
     reached, `area` lies between the stretch and the circle of the radius about `corner`, positive if the stretch runs
     counterclockwise; both are NaN without such a place."""
 
-    stretches: Stretches
+    intervals: Intervals
     pieces: Rows
     ends: Points
     reached: Flags
@@ -60,18 +60,18 @@ def uncut(
     """Return the stretches farther than the radius from the moves, in the contour's order and across joints.
 
     Walls that are `covered` are known to be reached.  In a closed contour a stretch that runs over START comes last.
-    Stretches that are nowhere thicker than STOCK are left out.
+    Intervals that are nowhere thicker than STOCK are left out.
     """
     if covered.all():
         return ()
     pairs = pairs_of(walls, moves, rounding_of(walls), (~covered).nonzero()[0])
     gaps = gaps_of(pairs, covered, radius)
-    if not len(gaps.stretches):
+    if not len(gaps.intervals):
         return ()
-    numbers, stretches = surface.numbers[walls.rows], gaps.stretches
-    length, thick = stretches.last - stretches.first, gaps.apart - radius
+    numbers, intervals = surface.numbers[walls.rows], gaps.intervals
+    length, thick = intervals.last - intervals.first, gaps.apart - radius
     area = np.where(gaps.area * side.sign > 0.0, np.abs(gaps.area), nan)
-    at_start, at_end = stretches.first == 0.0, stretches.last == walls.stations[-1]
+    at_start, at_end = intervals.first == 0.0, intervals.last == walls.stations[-1]
     area[~gaps.reached.all(axis=0)] = nan
     wanted = thick > STOCK
     wanted[[0, -1]] = True
@@ -129,7 +129,7 @@ def gaps_of(pairs: Pairs, whole: Flags, radius: float) -> Gaps:
     cut = _reached(pairs, whole, radius)
     first, last = np.append(0.0, cut.last), np.append(cut.first, stations[-1])
     wide = (last - first > STOCK).nonzero()[0]
-    gaps = Stretches(first[wide], last[wide])
+    gaps = Intervals(first[wide], last[wide])
     inward = np.array((gaps.first + ON_PATH, gaps.last - ON_PATH))
     index = stations[1:-1].searchsorted(inward, side="right")
     t = fraction(np.array((gaps.first, gaps.last)) - stations[index], pieces.length[index])
@@ -142,7 +142,7 @@ def gaps_of(pairs: Pairs, whole: Flags, radius: float) -> Gaps:
     return Gaps(gaps, index, ends, reached, far.point, far.apart, corner, _areas(pairs, gaps, corner, radius))
 
 
-def _reached(pairs: Pairs, whole: Flags, radius: float) -> Stretches:
+def _reached(pairs: Pairs, whole: Flags, radius: float) -> Intervals:
     """Return the stretches of the pieces within the radius of the others.
 
     The tolerance for rounding and uneven arcs helps to decide whether a place is reached; where a stretch ends is then
@@ -187,7 +187,7 @@ def _between_feet(pairs: Pairs, rows: Rows, limit: Floats) -> tuple[Floats, Floa
     return np.where(near, fractions, 2.0).min(axis=0), np.where(near, fractions, -2.0).max(axis=0)
 
 
-def _settled(pairs: Pairs, first: Floats, last: Floats, pair: Rows, drawn: Flags, radius: float) -> Stretches:
+def _settled(pairs: Pairs, first: Floats, last: Floats, pair: Rows, drawn: Flags, radius: float) -> Intervals:
     """Join the parts from `first` to `last` to stretches; ends that belong to a `drawn` pair move inward to where that
     pair is exactly the radius apart."""
     order = first.argsort(kind="stable")
@@ -197,7 +197,7 @@ def _settled(pairs: Pairs, first: Floats, last: Floats, pair: Rows, drawn: Flags
     begins[1:] = first[1:] > furthest[:-1]
     begin = begins.nonzero()[0]
     if not len(begin):
-        return Stretches(first, last)
+        return Intervals(first, last)
     holder = np.maximum.accumulate(np.where(last == furthest, np.arange(len(last)), 0))
     end = holder[np.append(begin[1:], len(first)) - 1]
     pair = pair[order[np.concatenate((begin, end))]]
@@ -206,7 +206,7 @@ def _settled(pairs: Pairs, first: Floats, last: Floats, pair: Rows, drawn: Flags
     inward = np.repeat((1.0, -1.0), len(begin))
     ends[loose] += inward[loose] * _overshoot(pairs, pair[loose], ends[loose], inward[loose], radius)
     low, high = ends[: len(begin)], ends[len(begin) :]
-    return Stretches(low, np.maximum(low, high))
+    return Intervals(low, np.maximum(low, high))
 
 
 def _overshoot(pairs: Pairs, pair: Rows, ends: Floats, inward: Floats, radius: float) -> Floats:
@@ -246,7 +246,7 @@ def _some_corners(pairs: Pairs, index: Rows, ends: Points, radius: float) -> tup
     return corner, reached
 
 
-def _areas(pairs: Pairs, gaps: Stretches, corner: Points, radius: float) -> Floats:
+def _areas(pairs: Pairs, gaps: Intervals, corner: Points, radius: float) -> Floats:
     """Return the (k,) areas between each gap and the circle about its corner."""
     parts = gaps.cut(pairs.stations[1:-1])
     owner, piece = gaps.index(parts.middle), pairs.stations[1:-1].searchsorted(parts.middle, side="right")
@@ -258,7 +258,7 @@ def _areas(pairs: Pairs, gaps: Stretches, corner: Points, radius: float) -> Floa
     return areas
 
 
-def _sectors(pieces: PieceArrays, parts: Stretches, starts: Floats, corner: Points, radius: float) -> Floats:
+def _sectors(pieces: PieceArrays, parts: Intervals, starts: Floats, corner: Points, radius: float) -> Floats:
     """Return the (m,) areas between each part of a piece and the circle about its corner, positive counterclockwise."""
     t = fraction(np.array((parts.first, parts.middle, parts.last)) - starts, pieces.length)
     first, middle, last = at(pieces, t) - corner

@@ -20,9 +20,9 @@ from core.geometry.piece_arrays import BLOCK_PAIRS, PieceArrays, at, direction, 
 from core.tolerance import GOUGE, JOINED, ON_PATH
 from core.verify.farthest import DISTANCE_TOLERANCE, farthest
 from core.verify.gouge import Gouging, approaches
+from core.verify.intervals import NO_INTERVALS, Intervals, merged
 from core.verify.pairs import Nearest, Pairs, keeping, nearest
 from core.verify.self_crossings import SelfCrossings, at_joints
-from core.verify.stretches import NO_STRETCHES, Stretches, union
 
 MIN_SIDE_SINE: Final = 1e-6
 """A point whose angle to the surface's tangent has a smaller sine is on neither side."""
@@ -89,7 +89,7 @@ def wrong_side(pairs: Pairs, hits: Gouging, surface: Sided, radius: float) -> tu
     on_part = _on_part_side(pairs, index, t, surface)
     if surface.crossed:
         s = np.concatenate((pairs.stations[index[:count]] + t[:count] * pairs.pieces.length[index[:count]], spots))
-        on_part &= ~hits.stretches.holds(s)
+        on_part &= ~hits.intervals.holds(s)
     wrong = np.zeros(len(pairs.pieces), np.bool_)
     moves, inside = on_part[: len(on_part) - len(parts)], on_part[len(on_part) - len(parts) :]
     wrong[index[: len(moves)][moves]] = True
@@ -106,7 +106,7 @@ def _on_part_side(pairs: Pairs, index: Rows, t: Floats, surface: Sided) -> Flags
     return on_part
 
 
-def _with_depth(pairs: Pairs, inside: Stretches, hits: Gouging, wrong: Flags, radius: float) -> tuple[Flags, Gouging]:
+def _with_depth(pairs: Pairs, inside: Intervals, hits: Gouging, wrong: Flags, radius: float) -> tuple[Flags, Gouging]:
     """Mark in `wrong` the pieces that go deeper than GOUGE in the parts `inside`, and update the gouges' depths.
 
     On the part's side a gouge's distance is negative.  A gouge ends where the path is the radius away again, less GOUGE
@@ -120,18 +120,18 @@ def _with_depth(pairs: Pairs, inside: Stretches, hits: Gouging, wrong: Flags, ra
     middle, spots, apart, wall = inside.middle[deep], far.place[deep], far.apart[deep], far.near[deep]
     index = pairs.stations[1:-1].searchsorted(middle, side="right")
     wrong[index] = True
-    in_gouge = hits.stretches.holds(middle).nonzero()[0]
+    in_gouge = hits.intervals.holds(middle).nonzero()[0]
     if not len(in_gouge):
         return wrong, hits
     slack = float(pairs.pieces.slack.max() + pairs.others.slack.max())
-    owner, spots, apart = hits.stretches.index(middle[in_gouge]), spots[in_gouge], apart[in_gouge]
+    owner, spots, apart = hits.intervals.index(middle[in_gouge]), spots[in_gouge], apart[in_gouge]
     apart = np.where(apart >= radius - GOUGE - slack - 2.0 * DISTANCE_TOLERANCE, radius, apart)
     order = np.lexsort((spots, -np.round(apart / ON_PATH), owner))
     best = order[changes(owner[order])]
     gouge, deepest = owner[best], in_gouge[best]
     where, distance, i, j = hits.place.copy(), hits.apart.copy(), hits.i.copy(), hits.j.copy()
     where[gouge], distance[gouge], i[gouge], j[gouge] = spots[best], -apart[best], index[deepest], wall[deepest]
-    return wrong, Gouging(hits.stretches, where, distance, i, j)
+    return wrong, Gouging(hits.intervals, where, distance, i, j)
 
 
 def _near(pairs: Pairs, radius: float) -> Flags:
@@ -151,8 +151,8 @@ def _on_one_wall(pairs: Pairs, hits: Gouging, radius: float) -> Flags:
     kept = np.zeros(len(pairs.pieces), np.bool_)
     kept[pairs.i[inner]] = True
     if len(hits):
-        owner = np.searchsorted(hits.stretches.first, pairs.stations[1:]) - 1
-        kept &= (owner < 0) | (hits.stretches.last[owner] <= pairs.stations[:-1])
+        owner = np.searchsorted(hits.intervals.first, pairs.stations[1:]) - 1
+        kept &= (owner < 0) | (hits.intervals.last[owner] <= pairs.stations[:-1])
     return kept
 
 
@@ -160,24 +160,24 @@ def _gouge_positions(hits: Gouging, surface: Sided) -> Floats:
     """Return the places along the center path that represent the gouges; none for a closed, uncrossed contour."""
     if not len(hits) or (surface.endless and not surface.crossed):
         return np.zeros(0)
-    return np.concatenate((hits.stretches.first, hits.stretches.last, hits.stretches.middle, hits.place))
+    return np.concatenate((hits.intervals.first, hits.intervals.last, hits.intervals.middle, hits.place))
 
 
-def _parts(pairs: Pairs, hits: Gouging, surface: Sided, radius: float) -> Stretches:
+def _parts(pairs: Pairs, hits: Gouging, surface: Sided, radius: float) -> Intervals:
     """Return the gouging stretches, split where the center path may change sides.
 
     A cutter of radius 0 gouges nothing: for it, test the pieces that meet walls without running along one.
     If the surface crosses itself, the sides of its walls contradict each other, and there is nothing to test.
     """
     if surface.crossed or not (len(hits) or radius <= GOUGE):
-        return NO_STRETCHES
-    met, stretches = _meeting(pairs, radius), hits.stretches
+        return NO_INTERVALS
+    met, intervals = _meeting(pairs, radius), hits.intervals
     if radius <= GOUGE:
-        stretches = union(pairs.stations[pairs.i[met]], pairs.stations[pairs.i[met] + 1])
+        intervals = merged(pairs.stations[pairs.i[met]], pairs.stations[pairs.i[met] + 1])
     # a wall exactly JOINED away counts as met
     spots, _, _ = approaches(pairs, met, np.full(len(met), np.nextafter(JOINED, 1.0)))
-    cuts = spots, _ends_passed(pairs, stretches, surface), _joints(pairs, surface)
-    parts = stretches.cut(np.concatenate(cuts))
+    cuts = spots, _ends_passed(pairs, intervals, surface), _joints(pairs, surface)
+    parts = intervals.cut(np.concatenate(cuts))
     return parts if surface.endless else parts.cut(_between_arms(pairs, parts, surface))
 
 
@@ -197,13 +197,13 @@ def _joints(pairs: Pairs, surface: Sided) -> Floats:
     return joints[np.abs(moves.end[:-1] - moves.start[1:]) > JOINED] if surface.endless else joints
 
 
-def _ends_passed(pairs: Pairs, stretches: Stretches, surface: Sided) -> Floats:
-    """Return where the stretches' pieces pass the normals at an open surface's ends, or are nearest to an open seam."""
+def _ends_passed(pairs: Pairs, intervals: Intervals, surface: Sided) -> Floats:
+    """Return where the intervals' pieces pass the normals at an open surface's ends, or are nearest to an open seam."""
     walls, moves = pairs.others, pairs.pieces
     if surface.endless and abs(walls.end[-1] - walls.start[0]) <= ON_PATH:
         return np.zeros(0)
-    begin, _ = place(moves, pairs.stations, stretches.first)
-    end, _ = place(moves, pairs.stations, stretches.last)
+    begin, _ = place(moves, pairs.stations, intervals.first)
+    end, _ = place(moves, pairs.stations, intervals.last)
     steps = np.zeros(len(moves) + 1, np.intp)
     np.add.at(steps, begin, 1)
     np.add.at(steps, end + 1, -1)
@@ -218,14 +218,14 @@ def _ends_passed(pairs: Pairs, stretches: Stretches, surface: Sided) -> Floats:
     return np.concatenate(crossings)
 
 
-def _between_arms(pairs: Pairs, parts: Stretches, surface: Sided) -> Floats:
+def _between_arms(pairs: Pairs, parts: Intervals, surface: Sided) -> Floats:
     """Return where these parts change sides without meeting a wall: halfway between two arms of an open contour, from
     the part's side of one arm to the cutter's side of the other."""
     batches = [parts.part(first, first + PARTS_AT_A_TIME) for first in range(0, len(parts), PARTS_AT_A_TIME)]
     return np.concatenate((np.zeros(0), *(_changes_of_side(pairs, batch, surface) for batch in batches)))
 
 
-def _changes_of_side(pairs: Pairs, parts: Stretches, surface: Sided) -> Floats:
+def _changes_of_side(pairs: Pairs, parts: Intervals, surface: Sided) -> Floats:
     """Return where the side changes between two neighbors of `TESTED_SHARES`, to the last digit."""
     s = parts.first + TESTED_SHARES * (parts.last - parts.first)
     wrong = _wrong(pairs, s.ravel(), surface).reshape(s.shape)

@@ -12,8 +12,8 @@ from core.geometry.piece import Arc, Turn
 from core.geometry.piece_arrays import piece_arrays
 from core.verify import farthest as module
 from core.verify.farthest import farthest
+from core.verify.intervals import Intervals
 from core.verify.pairs import pairs_of, rounding_of
-from core.verify.stretches import Stretches
 from tests.core.verify.shapes import lines
 
 
@@ -27,7 +27,7 @@ def test_the_farthest_place_at_the_top_of_an_arc_needs_no_search(
     walked = piece_arrays(
         Path.from_pieces([Arc((begin, (25 - begin**2) ** 0.5 - 3.0), (3.0, 1.0), (0.0, -3.0), Turn.CW)])
     )
-    other, whole = piece_arrays(floor), Stretches(np.zeros(1), walked.length)
+    other, whole = piece_arrays(floor), Intervals(np.zeros(1), walked.length)
     far = farthest(pairs_of(walked, other, rounding_of(other)), whole)
     assert far.apart.item() == pytest.approx(2.0, abs=1e-14)
     assert far.place.item() == pytest.approx(5.0 * asin(-begin / 5.0), abs=1e-9)
@@ -37,6 +37,6 @@ def test_the_farthest_place_at_the_top_of_an_arc_needs_no_search(
 def test_between_two_walls_it_is_where_both_are_as_far(begin: float, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(module, "MAX_DIVISIONS", 2)
     walked, other = piece_arrays(lines((0, 0), (4, 0))), piece_arrays(lines((-1, -1), (-1, 9), (5, 9), (5, -1)))
-    stretch = Stretches(np.array([begin]), walked.length)
+    stretch = Intervals(np.array([begin]), walked.length)
     far = farthest(pairs_of(walked, other, rounding_of(other)), stretch)
     assert (far.place.item(), far.apart.item()) == pytest.approx((2.0, 3.0), abs=1e-12)

@@ -203,7 +203,7 @@ def _gouging(surface: Path, radius: float, center: Path) -> set[tuple[float, flo
     with np.errstate(all="ignore"):
         walls, moves = piece_arrays(surface), piece_arrays(center)
         pairs = pairs_of(moves, walls, rounding_of(walls))
-        stretches = gouging(pairs, radius - GOUGE).stretches
+        stretches = gouging(pairs, radius - GOUGE).intervals
     piece, t = np.divmod(np.arange(SHARES * len(moves)), SHARES)
     s = pairs.stations[piece] + (t + 0.5) / SHARES * moves.length[piece]
     inside = (s[:, None] > stretches.first + 1e-5) & (s[:, None] < stretches.last - 1e-5)

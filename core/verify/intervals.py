@@ -1,4 +1,4 @@
-"""Stretches: the parts of a path nearer to another path than a limit, as exact intervals of length traveled."""
+"""Intervals: parts of a path, each from one length traveled to another, such as those nearer than a limit to a path."""
 
 from __future__ import annotations
 
@@ -15,8 +15,8 @@ from core.verify.pairs import Pairs, measured
 
 
 @dataclass(frozen=True, eq=False, slots=True)
-class Stretches:
-    """k disjoint stretches of a path in order: the lengths traveled (k,) at their starts `first` and ends `last`."""
+class Intervals:
+    """k disjoint intervals of a path in order: the lengths traveled (k,) at their starts `first` and ends `last`."""
 
     first: Floats
     last: Floats
@@ -30,32 +30,32 @@ class Stretches:
         return (self.first + self.last) / 2.0
 
     def index(self, s: Floats) -> Rows:
-        """Return the index of the stretch that each place `s` is in or follows; -1 before the first."""
+        """Return the index of the interval that each place `s` is in or follows; -1 before the first."""
         return self.first.searchsorted(s, side="right") - 1
 
     def holds(self, s: Floats) -> Flags:
-        """True for places strictly inside a stretch."""
+        """True for places strictly inside an interval."""
         owner = self.index(s)
         inside = owner >= 0
         inside[inside] = (s[inside] > self.first[owner[inside]]) & (s[inside] < self.last[owner[inside]])
         return inside
 
-    def keep(self, chosen: Flags | Rows) -> Stretches:
-        """Return the stretches for which `chosen` (k,) is True, or those of these indices."""
-        return Stretches(self.first[chosen], self.last[chosen])
+    def keep(self, chosen: Flags | Rows) -> Intervals:
+        """Return the intervals for which `chosen` (k,) is True, or those of these indices."""
+        return Intervals(self.first[chosen], self.last[chosen])
 
-    def part(self, first: int, last: int) -> Stretches:
-        """Return stretches first ... last - 1."""
-        return Stretches(self.first[first:last], self.last[first:last])
+    def part(self, first: int, last: int) -> Intervals:
+        """Return intervals first ... last - 1."""
+        return Intervals(self.first[first:last], self.last[first:last])
 
-    def cut(self, cuts: Floats) -> Stretches:
-        """Split the stretches at these places."""
+    def cut(self, cuts: Floats) -> Intervals:
+        """Split the intervals at these places."""
         s = np.sort(np.concatenate((self.first, self.last, cuts[self.holds(cuts)])))
-        parts = Stretches(s[:-1], s[1:])
+        parts = Intervals(s[:-1], s[1:])
         return parts.keep((parts.last > parts.first + ON_PATH) & self.holds(parts.middle))
 
 
-NO_STRETCHES = Stretches(np.zeros(0), np.zeros(0))
+NO_INTERVALS = Intervals(np.zeros(0), np.zeros(0))
 """No part of a path."""
 
 
@@ -100,12 +100,12 @@ def joined(batches: Sequence[Parts]) -> Parts:
     return Parts(first, last, middle, apart, np.concatenate((np.zeros(0, np.intp), *(part.pair for part in batches))))
 
 
-def union(first: Floats, last: Floats) -> Stretches:
-    """Merge overlapping and touching parts into stretches."""
+def merged(first: Floats, last: Floats) -> Intervals:
+    """Merge overlapping and touching parts into intervals."""
     order = first.argsort(kind="stable")
     first, furthest = first[order], np.maximum.accumulate(last[order])
     begins = np.ones(len(first), np.bool_)
     begins[1:] = first[1:] > furthest[:-1] + ON_PATH
     starts = begins.nonzero()[0]
     ends = np.append(starts[1:], len(first)) - 1
-    return Stretches(first[starts], furthest[ends[: len(starts)]])
+    return Intervals(first[starts], furthest[ends[: len(starts)]])
