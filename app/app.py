@@ -106,7 +106,7 @@ class CutcompApp(TransformActions):
         self.posted_for = CENTER_PATH
         """The control of the last posted NC file, or the center path."""
         self.set_reactive(CutcompApp.session, session)
-        self.set_reactive(CutcompApp.shown, session)
+        self.set_reactive(CutcompApp.displayed, session)
         for each in theme.themes():
             self.register_theme(each)
         # without the watcher, which would parse every style once more
@@ -266,7 +266,7 @@ class CutcompApp(TransformActions):
         if not isinstance(self.screen, ContourScreen):
             return None
         self.screen.follow(self.session)
-        self.screen.follow_shown(self.shown)
+        self.screen.follow_displayed(self.displayed)
         return self.screen
 
     def show_panel(self, name: str) -> None:

@@ -34,12 +34,12 @@ QUIET = 0.2
 class DerivationActions(App[int]):
     """The App's part for long work and for what is derived from the program: paths and verdict, table, advice.
 
-    `session` holds all accepted edits.  `shown` is what verdict and drawings show: the same session, or the one
+    `session` holds all accepted edits.  `displayed` is what verdict and drawings show: the same session, or the one
     that a half-typed number would make.
     """
 
     session: var[Session] = var(lambda: Session.of(Program()), init=False)
-    shown: var[Session] = var(lambda: Session.of(Program()), init=False)
+    displayed: var[Session] = var(lambda: Session.of(Program()), init=False)
     guided: var[bool] = var(default=False, init=False)
     """Whether the prompt guides through a first part; Esc ends the guide."""
     characters: var[str] = var("braille", init=False)
@@ -118,8 +118,8 @@ class DerivationActions(App[int]):
         if program is not None:
             self._derive(program)
             return
-        if self.shown is not self.session:
-            self.shown = self.session
+        if self.displayed is not self.session:
+            self.displayed = self.session
         if self._deriving is not self.session.program:
             self._deriving = None
             self.workers.cancel_group(self, "derive")
@@ -139,11 +139,11 @@ class DerivationActions(App[int]):
             result = await to_thread(derived, program, work)
             self._deriving = None
             if program is self.session.program:
-                self.session = self.shown = self.session.knowing(result)
+                self.session = self.displayed = self.session.with_derived(result)
                 self._mention_unit()
                 self._make_table()
             else:
-                self.shown = self.session.trying(result)
+                self.displayed = self.session.with_trial(result)
 
     def _unit_question(self) -> str:
         """Return the question INCH or MM?; empty if the part's size is usual or unknown."""
@@ -183,10 +183,10 @@ class DerivationActions(App[int]):
             self.screen.show_rows(message.block, message.rows)
 
     def _show_table(self, block: DerivedBlock, table: Table | None) -> None:
-        trial = self.shown is not self.session
+        trial = self.displayed is not self.session
         self.session = self.session.with_table(block, table)
         if not trial:
-            self.shown = self.session
+            self.displayed = self.session
 
     @on(TableNotesAdded)
     def _show_added_notes(self, message: TableNotesAdded) -> None:
@@ -211,10 +211,10 @@ class DerivationActions(App[int]):
         for screen in self._screens():
             screen.follow(session)
 
-    def watch_shown(self, shown: Session) -> None:
+    def watch_displayed(self, displayed: Session) -> None:
         """Update all screens after the session on display has changed."""
         for screen in self._screens():
-            screen.follow_shown(shown)
+            screen.follow_displayed(displayed)
 
     def watch_characters(self, characters: str) -> None:
         """Redraw all screens with these characters."""
@@ -248,7 +248,7 @@ class DerivationActions(App[int]):
     def _advise(self) -> None:
         """Add notes to the look-ahead table of the block with the cursor in a worker, if they are not known yet."""
         table, block = self.session.lookahead_table, self.session.derived_block
-        if table is not None and not table.complete and self.shown is self.session and self._deriving is None:
+        if table is not None and not table.complete and self.displayed is self.session and self._deriving is None:
             self._advise_in_thread(block, self.session.program, table)
 
     @work(thread=True, group="advice", exclusive=True, description="advice")
@@ -270,7 +270,7 @@ class DerivationActions(App[int]):
         if session.program is not self.session.program:
             self.guided = self._unit_mentioned = self._unit_settled = False
             self.quiet()
-        self.session = self.shown = session
+        self.session = self.displayed = session
         if not same:
             self._derive(session.program)
 

@@ -139,7 +139,7 @@ class FileActions(DerivationActions):
             return
         self.keep(session)
         self.session = session
-        self.shown = session
+        self.displayed = session
         self._advise_later()
         if session.program is not before.program:
             self._derive(session.program)

@@ -196,7 +196,7 @@ class BaseScreen(Screen[None]):
     def on_screen_resume(self) -> None:
         """Catch up with changes made while another screen was in front."""
         self.follow(self.host.session)
-        self.follow_shown(self.host.shown)
+        self.follow_displayed(self.host.displayed)
         self.show_work(self.host.longest_work)
         if self.stands:
             self.query_one(Status).read_machine()
@@ -237,7 +237,7 @@ class BaseScreen(Screen[None]):
         elif below:
             below[-1].show_state_on(status)
 
-    def follow_shown(self, shown: Session) -> None:
+    def follow_displayed(self, displayed: Session) -> None:
         """Show what half-typed numbers would do, on screens that show this."""
 
     def refresh_frame(self) -> None:

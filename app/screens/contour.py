@@ -144,14 +144,14 @@ class ContourScreen(FormScreen):
 
     def __init__(self) -> None:
         super().__init__()
-        self._followed: Session | None = None
+        self._displayed: Session | None = None
         self._forms: dict[table.Form, Form] = {}
         self._form = table.Form.START
         self._cursor: Cursor | None = None
         self.entries: tuple[Entry, ...] = ()
         self.in_hand: int | None = None
         """The index of the selected placed finding; None shows the segment, or on START the first finding."""
-        self._tried = False
+        self._shows_trial = False
         """Whether the other fields show what they would be with a half-typed number."""
         self._left_field: tuple[FormPlace, str] | None = None
         """The segment and field that the cursor left to go to a list."""
@@ -196,7 +196,7 @@ class ContourScreen(FormScreen):
         wanted = form_at(session)
         if wanted is not self._form:
             self._switch_form(session, wanted)
-        self._tried = False
+        self._shows_trial = False
         self.form().show(cells_at(session))
         self._show_titles(session)
         self._offer_letters(session)
@@ -246,37 +246,37 @@ class ContourScreen(FormScreen):
                 label.update(text)
         self.query_one(f"#{SEGMENT_FIELD}", SegmentField).show(str(segment))
 
-    def follow_shown(self, shown: Session) -> None:
+    def follow_displayed(self, displayed: Session) -> None:
         """Update verdict, drawings and lists; keep the block's last ones while a new path is being calculated."""
-        if not self.in_view or shown is self._followed:
+        if not self.in_view or displayed is self._displayed:
             return
-        self._followed = shown
-        self._show_tried(shown)
-        block, unit, verdict = shown.derived_block, shown.program.unit, self.query_one(Verdict)
+        self._displayed = displayed
+        self._show_trial(displayed)
+        block, unit, verdict = displayed.derived_block, displayed.program.unit, self.query_one(Verdict)
         before = verdict.case
         if not block.complete and before is not None and before.block.number == block.number and before.block.complete:
             return
-        verdict.case = Case(block, shown.lookahead_table, unit)
-        self.entries = block_findings(block, shown.lookahead_table, unit)
+        verdict.case = Case(block, displayed.lookahead_table, unit)
+        self.entries = block_findings(block, displayed.lookahead_table, unit)
         self.query_one(FindingsList).entries = self.entries
-        self._show_lists(shown)
+        self._show_lists(displayed)
         if block.complete or before is not None:
             # skipped in the first paint, which must not load the numeric libraries
-            self._show_picture(shown)
+            self._show_picture(displayed)
 
     def show_signs(self) -> None:
         """Redraw the signs of the segment list and of the loupe's title."""
-        self._show_lists(self.host.shown)
-        self._show_picture(self.host.shown)
+        self._show_lists(self.host.displayed)
+        self._show_picture(self.host.displayed)
 
     def show_work(self, work: Work | None) -> None:
         """Show the progress in the verdict's title too; the last verdict stays until the work is done."""
         super().show_work(work)
         if not self.stands:
             return
-        verdict, shown = self.query_one(Verdict), self.host.shown
-        if verdict.case is not None and not shown.derived_block.complete:
-            stopped = self.host.stopped is shown.program
+        verdict, displayed = self.query_one(Verdict), self.host.displayed
+        if verdict.case is not None and not displayed.derived_block.complete:
+            stopped = self.host.stopped is displayed.program
             verdict.case = replace(verdict.case, working=None if work is None else work.done, stopped=stopped)
 
     def show_rows(self, block: DerivedBlock, rows: tuple[Row, ...]) -> None:
@@ -285,36 +285,36 @@ class ContourScreen(FormScreen):
         if verdict.case is not None and verdict.case.block is block and verdict.case.table is None:
             verdict.case = replace(verdict.case, rows=rows)
 
-    def _show_tried(self, shown: Session) -> None:
+    def _show_trial(self, displayed: Session) -> None:
         """Show the other fields as a half-typed number would make them, or as they were."""
-        trial = shown is not self.current_session
-        if trial or self._tried:
+        trial = displayed is not self.current_session
+        if trial or self._shows_trial:
             typed = self.current.name if trial and self.current is not None else None
-            self.form().show([cell for cell in cells_at(shown) if cell.name != typed])
-            self._show_titles(shown)
-            self._tried = trial
+            self.form().show([cell for cell in cells_at(displayed) if cell.name != typed])
+            self._show_titles(displayed)
+            self._shows_trial = trial
 
-    def _show_lists(self, shown: Session) -> None:
+    def _show_lists(self, displayed: Session) -> None:
         segments = self.query_one(SegmentList)
         if segments.display:
-            segments.show(shown)
+            segments.show(displayed)
 
     @on(events.Resize)
     def _fill_lists(self) -> None:
         """Refresh the lists: a larger terminal may show one that was hidden."""
-        self.call_after_refresh(lambda: self._show_lists(self.host.shown))
+        self.call_after_refresh(lambda: self._show_lists(self.host.displayed))
 
     @property
     def placed(self) -> list[Entry]:
         """The findings that have a position in the drawing."""
         return [entry for entry in self.entries if entry.at is not None]
 
-    def _show_picture(self, shown: Session) -> None:
+    def _show_picture(self, displayed: Session) -> None:
         placed = self.placed
         in_hand = self.in_hand
-        if in_hand is None and not shown.place.segment and placed:
+        if in_hand is None and not displayed.place.segment and placed:
             in_hand = 0
-        self.query_one(Picture).show(shown, placed, in_hand, self.host.characters)
+        self.query_one(Picture).show(displayed, placed, in_hand, self.host.characters)
 
     def action_finding(self, by: int) -> None:
         """Move the loupe to the next or previous finding; on START it is on the first one at the beginning."""
@@ -328,7 +328,7 @@ class ContourScreen(FormScreen):
             self.say("There are no findings.")
             return
         self.in_hand = (0 if by > 0 else len(placed) - 1) if here is None else (here + by) % len(placed)
-        self._show_picture(self.host.shown)
+        self._show_picture(self.host.displayed)
         self.query_one(FindingsList).highlighted = self.entries.index(placed[self.in_hand])
 
     @on(Drawing.Picked)
@@ -341,7 +341,7 @@ class ContourScreen(FormScreen):
         near = [at for at, entry in enumerate(placed) if entry.at is not None and dist(entry.at, event.at) <= reach]
         if near and event.drawing.id == "outline":
             self.in_hand = near[0]
-            self._show_picture(self.host.shown)
+            self._show_picture(self.host.displayed)
             self.query_one(FindingsList).highlighted = self.entries.index(placed[near[0]])
         elif (segment := nearest_segment(self.current_session.derived_block, event.at)) is not None and self.take():
             self.go(segment)
@@ -384,7 +384,7 @@ class ContourScreen(FormScreen):
         if is_open:
             self._focus_left_field()
         else:
-            self._show_lists(self.host.shown)
+            self._show_lists(self.host.displayed)
             self.set_focus(target)
 
     def _focus_left_field(self) -> None:
@@ -422,7 +422,7 @@ class ContourScreen(FormScreen):
         entry = self.entries[event.option_index]
         placed = self.placed
         self.in_hand = placed.index(entry) if entry in placed else None
-        self._show_picture(self.host.shown)
+        self._show_picture(self.host.displayed)
 
     @on(OptionList.OptionSelected, "#findings")
     def _finding_chosen(self, event: OptionList.OptionSelected) -> None:

@@ -148,7 +148,7 @@ class Session:
             return self
         return self._with_history(undone)
 
-    def knowing(self, derived: Derived) -> Session:
+    def with_derived(self, derived: Derived) -> Session:
         """Return the session with its program's derivation; ignore a result for another program."""
         return replace(self, derived=derived) if derived.program is self.program else self
 
@@ -156,7 +156,7 @@ class Session:
         """Return the session with a block's look-ahead table; ignore it if the block is outdated."""
         return replace(self, table=(block, table)) if block in self.derived.blocks else self
 
-    def trying(self, derived: Derived) -> Session:
+    def with_trial(self, derived: Derived) -> Session:
         """Return the session as it would be with another program, for display only."""
         return replace(self, history=replace(self.history, program=derived.program), derived=derived)
 

@@ -268,10 +268,10 @@ async def test_a_program_opened_with_look_cannot_be_edited(folder):
         assert isinstance(user.app.screen, Question)
         await user.press("l")
         await user.press("tab", "'2")
-        assert user.app.shown is not user.session
+        assert user.app.displayed is not user.session
         await user.press("enter")
         assert "SAVE AS" in user.prompt
-        assert user.app.shown is user.session
+        assert user.app.displayed is user.session
         await user.press("pagedown", "tab", "'5.5", "enter")
         assert user.session.program == load(example("pocket"))
         assert "SAVE AS" in user.prompt

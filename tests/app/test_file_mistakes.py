@@ -244,7 +244,7 @@ async def test_the_title_says_look_only_until_a_copy_is_saved(folder):
         await user.press("enter")
         assert (user.at, user.value("x_start")) == ("x_start", "2.0000"), "typed text is removed"
         assert user.prompt.endswith("SAVE AS (Ctrl+K) makes a copy of your own.")
-        assert user.app.shown is user.session
+        assert user.app.displayed is user.session
         await user.press("up", "up", "right")
         assert user.value("cutter_comp") == "LEFT"
         await user.press("up", "'7", "enter", "ctrl+s")

@@ -101,7 +101,7 @@ async def test_an_abandoned_half_typed_number_leaves_the_program_calculated(monk
         slow.go.set()
         await user.press("tab", "ctrl+z", "ctrl+z")
         assert user.session.derived_block.complete
-        assert user.app.shown is user.session
+        assert user.app.displayed is user.session
 
 
 async def test_a_stopped_look_ahead_table_is_made_on_request(monkeypatch):

@@ -250,11 +250,11 @@ def form_troubles(app: CutcompApp) -> Iterator[str]:
         yield f"the cursor is nowhere, the focus on {app.focused} at {app.size}"
     if not isinstance(screen, ContourScreen):
         return
-    if not screen.half_typed and app.shown is not app.session:
+    if not screen.half_typed and app.displayed is not app.session:
         yield "a number is tried out that nobody types"
     shown = {row.cell.name or row.cell.label: row for row in screen.form().query(FieldRow)}
     # while a number is half-typed the others show what it would do
-    for cell in cells_at(app.shown if screen.half_typed else app.session):
+    for cell in cells_at(app.displayed if screen.half_typed else app.session):
         row = shown.get(cell.name or cell.label)
         if row is None or not cell.visible or (screen.half_typed and screen.current is row.input):
             continue

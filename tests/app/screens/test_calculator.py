@@ -54,7 +54,7 @@ async def test_the_answer_that_fits_the_field_is_offered_first(user: Operator):
     await user.press("enter")
     await user.press("'0", "enter", "'0", "enter", "'30", "enter", "'10", "enter", "enter")
     assert (user.at, user.value("y_end")) == ("y_end", "5")
-    assert user.app.shown is not user.session
+    assert user.app.displayed is not user.session
     await user.begin(part(), 1, "angle")
     await user.press("equals_sign", "enter")
     await user.press("'3", "enter", "'3", "enter")

@@ -40,10 +40,10 @@ async def test_an_unreadable_text_stays_marked_and_escape_restores_the_old_value
 async def test_a_typed_look_ahead_is_previewed_refused_above_20_and_restored_by_f3(user: Operator):
     await user.send(*["down"] * 11)
     await user.press("1")
-    assert user.app.shown.derived_block.lookahead.value == 1
+    assert user.app.displayed.derived_block.lookahead.value == 1
     assert user.session.derived_block.lookahead.value == 8, "a half-typed number is not taken"
     await user.press("escape")
-    assert user.app.shown is user.session
+    assert user.app.displayed is user.session
     await user.press("'21", "enter")
     assert user.session.block.lookahead is None, "a refused one keeps the old value"
     assert (user.value("lookahead"), user.tag("lookahead"), user.at) == ("8", "CAL", "lookahead")
@@ -239,7 +239,7 @@ async def test_the_preview_of_a_half_typed_number_ends_with_the_typing(user: Ope
         await user.send(*keys)
         may_end.set()
         await user.settle()
-        assert user.app.shown is user.session, end
+        assert user.app.displayed is user.session, end
         assert user.value("length") == before, end
 
 

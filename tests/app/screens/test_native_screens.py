@@ -269,7 +269,7 @@ async def test_a_screen_being_composed_shows_the_latest_session_once_ready(user:
         new_screen = screen()
         pushed = user.app.push_screen(new_screen)
         changed = replace(user.session, title=screen.__name__)
-        user.app.session = user.app.shown = changed
+        user.app.session = user.app.displayed = changed
         user.app.show_work()
         await pushed
         await user.settle()

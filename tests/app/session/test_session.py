@@ -65,5 +65,5 @@ def test_results_for_another_program_are_dropped():
     before = session()
     late = solve_fields(before.program)
     edited = before.with_program(with_start(before.program, 1.0), "X START")
-    assert edited.knowing(late).derived is edited.derived
-    assert edited.knowing(known := solve_fields(edited.program)).derived is known
+    assert edited.with_derived(late).derived is edited.derived
+    assert edited.with_derived(known := solve_fields(edited.program)).derived is known
