@@ -246,7 +246,7 @@ class CutcompApp(TransformActions):
 
         if isinstance(self.screen, BaseScreen):
             # what was said before does not concern the action that comes next
-            self.screen.quiet()
+            self.screen.clear_notice()
             # without Textual's id, as the previous palette may still be closing
             self.push_screen(Palette())
 

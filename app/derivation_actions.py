@@ -27,7 +27,7 @@ if TYPE_CHECKING:
     from app.nc_proof.screen import ProofScreen
     from core.advice.lookahead_table import Row, Table
 
-QUIET = 0.2
+ADVICE_DELAY = 0.2
 """Seconds without a key before the search for advice starts, so that no key waits for it."""
 
 
@@ -243,7 +243,7 @@ class DerivationActions(App[int]):
         self.workers.cancel_group(self, "advice")
         if self._advice_timer is not None:
             self._advice_timer.stop()
-        self._advice_timer = self.set_timer(QUIET, self._advise) if self.is_running else None
+        self._advice_timer = self.set_timer(ADVICE_DELAY, self._advise) if self.is_running else None
 
     def _advise(self) -> None:
         """Add notes to the look-ahead table of the block with the cursor in a worker, if they are not known yet."""
@@ -269,15 +269,15 @@ class DerivationActions(App[int]):
         same = session.program is self.session.program and session.derived is self.session.derived
         if session.program is not self.session.program:
             self.guided = self._unit_mentioned = self._unit_settled = False
-            self.quiet()
+            self.clear_notice()
         self.session = self.displayed = session
         if not same:
             self._derive(session.program)
 
-    def quiet(self) -> None:
+    def clear_notice(self) -> None:
         """Show the prompt again on every screen."""
         for screen in self._screens():
-            screen.quiet()
+            screen.clear_notice()
 
     def take_typed(self) -> bool:
         """Take what is half-typed on the screen in front; return False if it is refused."""

@@ -466,7 +466,7 @@ class FileActions(DerivationActions):
             self.begin(session_of(self.document, self.session))
             if self.document.file.path is not None:
                 self.keep_settings(self.settings.using(self.document.file.path))
-            self.quiet()
+            self.clear_notice()
         self.notify(result.notice.text, timeout=4)
         return True
 

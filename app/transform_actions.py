@@ -59,7 +59,7 @@ class TransformActions(FileActions):
         )
         if edited is not None and self.apply(edited, f"{title} {number}"):
             # messages about the previous edit no longer apply
-            self.quiet()
+            self.clear_notice()
             before, after = (each.blocks[number - 1] for each in (program, self.session.program))
             side = "" if after.cutter_comp is before.cutter_comp else f" CUTTER COMP. is {after.cutter_comp} now."
             lost = segment_numbers(transform.no_longer_typed(before, after))
@@ -110,4 +110,4 @@ class TransformActions(FileActions):
         edited = await self._edited(title, line, (*which, *entries, COPIES_ENTRY), repeated)
         if edited is not None and self.apply(edited, f"{title}, block {place.block}"):
             # messages about the previous edit no longer apply
-            self.quiet()
+            self.clear_notice()

@@ -155,7 +155,7 @@ class ProofScreen(BaseScreen):
         self.show_text()
         self.query_one(Listing).go_to_row(self.document.row)
         super().on_mount()
-        opened = self.said
+        opened = self.notice
         self._ask(self.question)
         if opened is not None:
             self.say(opened.text, opened.tone)
@@ -251,7 +251,7 @@ class ProofScreen(BaseScreen):
             self.action_large()
         listing.focus()
         listing.read_only = not listing.read_only
-        self.quiet()
+        self.clear_notice()
         if listing.read_only:
             self.take_lines()
         self.query_one("#proof-mode", Label).update("NC PROOF" if listing.read_only else "NC EDIT")
@@ -278,7 +278,7 @@ class ProofScreen(BaseScreen):
     def _moved(self) -> None:
         """When the cursor leaves a line, take it and move the cutter to the end of the new line's moves."""
         if self.query_one(Listing).row != self.document.row:
-            self.quiet()
+            self.clear_notice()
             self._follow_cursor()
 
     def _follow_cursor(self) -> bool:
@@ -295,7 +295,7 @@ class ProofScreen(BaseScreen):
     def _ask(self, question: Question) -> None:
         self.question, self.stopped = question, False
         # messages about the previous run no longer apply
-        self.quiet()
+        self.clear_notice()
         if self.dotted_control == question.control:
             self.dotted_control = ""
         self._end_dotted()
@@ -375,7 +375,7 @@ class ProofScreen(BaseScreen):
         """Remove the other control's dotted path."""
         if self.dotted_control:
             self._take_dotted_away()
-            self.quiet()
+            self.clear_notice()
         else:
             self.say("V, then Space on another control, draws its path dotted under this one.")
 

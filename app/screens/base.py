@@ -92,7 +92,7 @@ class BaseScreen(Screen[None]):
     """Whether this is the screen NC PROOF."""
 
     session: var[Session | None] = var(None, init=False)
-    said: var[Sentence | None] = var(None, init=False)
+    notice: var[Sentence | None] = var(None, init=False)
     """A sentence shown in place of the prompt until the next accepted key."""
 
     def __init__(self) -> None:
@@ -244,8 +244,8 @@ class BaseScreen(Screen[None]):
         """Update prompt and softkeys; a screen that is not ready yet shows them once it is."""
         if not self.stands:
             return
-        prompt = self.said or self.too_small() or self.prompt_text()
-        if self.host.guided and self.said is None and prompt.tone is not Tone.ERROR:
+        prompt = self.notice or self.too_small() or self.prompt_text()
+        if self.host.guided and self.notice is None and prompt.tone is not Tone.ERROR:
             prompt = Sentence(f"GUIDE  {self.guide_text()}")
         self.query_one(Prompt).show(prompt)
         self.query_one(Softkeys).refresh_keys()
@@ -298,14 +298,14 @@ class BaseScreen(Screen[None]):
 
     def say(self, text: str, tone: Tone = Tone.PLAIN) -> None:
         """Show a sentence on the prompt line until the next accepted key."""
-        self.said = Sentence(text, tone)
+        self.notice = Sentence(text, tone)
         if self._composed:
             self.refresh_frame()
 
-    def quiet(self) -> None:
-        """Show the prompt again."""
-        if self.said is not None:
-            self.said = None
+    def clear_notice(self) -> None:
+        """Show the prompt again instead of a sentence."""
+        if self.notice is not None:
+            self.notice = None
             self.refresh_frame()
 
     @on(DescendantFocus)
@@ -342,7 +342,7 @@ class BaseScreen(Screen[None]):
         if key is None or not self.key_acts(key):
             self.say("" if key is None else key.idle)
             return
-        self.quiet()
+        self.clear_notice()
         await self.run_action(key.action)
 
     def key_acts(self, key: Softkey) -> bool:

@@ -369,7 +369,7 @@ class ContourScreen(FormScreen):
         """
         if not self.take():
             return
-        self.quiet()
+        self.clear_notice()
         if self.current is not None:
             self._left_field = (self.current_session.place, self.current.name or SEGMENT_FIELD)
         is_open, target = self.has_class(f"-{name}"), self.query_one(f"#{name}", Widget)
@@ -398,7 +398,7 @@ class ContourScreen(FormScreen):
             self._close_panels()
             if self.current is None:
                 # the next digit is typed into the field and does not press a softkey
-                self.quiet()
+                self.clear_notice()
                 self._focus_left_field()
                 return
         super().action_restore()
@@ -581,7 +581,7 @@ class ContourScreen(FormScreen):
             if isinstance(widget, SegmentField):
                 self._jump(widget)
             return
-        self.quiet()
+        self.clear_notice()
         before = self.current_session.program
         if not self.take():
             return
@@ -629,13 +629,13 @@ class ContourScreen(FormScreen):
         last = len(session.block.segments)
         widget.restore()
         if not text:
-            self.quiet()
+            self.clear_notice()
         elif not (text.isascii() and text.isdigit()):
             self.say(f"{text} is no segment number: type digits only, such as 3, then Enter.", Tone.ERROR)
         elif int(text) > last:
             self.say(f"No segment {text}. 0 to {last}, or right arrow past {last} for a new one.", Tone.ERROR)
         else:
-            self.quiet()
+            self.clear_notice()
             self.go(int(text))
 
     def go(self, segment: int, field: str = SEGMENT_FIELD) -> None:
@@ -649,7 +649,7 @@ class ContourScreen(FormScreen):
 
     def action_walk(self, by: int) -> None:
         """Go to the previous or next segment; past the last one, add a new LINE."""
-        self.quiet()
+        self.clear_notice()
         if not self.take():
             return
         session = self.current_session
@@ -700,7 +700,7 @@ class ContourScreen(FormScreen):
         """Clear COOLANT on Del; every other choice always has a value."""
         field = self._field(event.name)
         if field is not None:
-            self.quiet()
+            self.clear_notice()
             self.pick(field, "")
 
     # ---- the list of a field

@@ -188,7 +188,7 @@ class DrawScreen(BaseScreen):
         if self.subject is not None:
             self.drawing.subject = replace(self.subject, near=None, view=None)
         self._show_heading()
-        self.quiet()
+        self.clear_notice()
 
     def action_walk(self, by: int) -> None:
         """Go to the previous or next segment; the cutter is drawn at its end."""
@@ -225,7 +225,7 @@ class DrawScreen(BaseScreen):
         self.cross = self.drawing.zoomed_about = at
         if self.subject is not None:
             self.drawing.subject = replace(self.subject, cross=at)
-        self.quiet()
+        self.clear_notice()
         self.refresh_frame()
 
     def action_move_cross(self, right: int, up: int) -> None:

@@ -70,7 +70,7 @@ class EntryScreen(BaseScreen):
 
     @on(Input.Changed, "#entry")
     def _typing(self) -> None:
-        self.quiet()
+        self.clear_notice()
 
     def say(self, text: str, tone: Tone = Tone.PLAIN) -> None:
         """Show a sentence on the prompt line; after an error, select the name so that typing replaces it."""
@@ -84,7 +84,7 @@ class EntryScreen(BaseScreen):
         if not self.text:
             self.say("Type a name.", Tone.ERROR)
             return
-        self.quiet()
+        self.clear_notice()
         self.entered(self.text)
 
 

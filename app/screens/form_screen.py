@@ -153,7 +153,7 @@ class FormScreen(BaseScreen):
         if widget is not self.current or not isinstance(widget, NumberField):
             return
         self.disarm()
-        self.quiet()
+        self.clear_notice()
         if field is None or field.kind is Kind.TEXT:
             return
         typed = read_typed(widget.value, field, self.current_session.program.unit) if widget.edited else None
@@ -182,7 +182,7 @@ class FormScreen(BaseScreen):
             # the blank line of the list was picked
             event.select.show(self.picked_text(field))
             return
-        self.quiet()
+        self.clear_notice()
         self.pick(field, text)
 
     def may_be_blank(self, _field: Field, /) -> bool:
@@ -223,7 +223,7 @@ class FormScreen(BaseScreen):
 
     def action_step(self, by: int) -> None:
         """Take the field and go to the next or previous one, wrapping around."""
-        self.quiet()
+        self.clear_notice()
         if self.take() and (names := self.names()):
             here = names.index(self.current.name) if self.current is not None and self.current.name in names else -1
             self.focus_field(names[(here + by) % len(names)])
@@ -250,7 +250,7 @@ class FormScreen(BaseScreen):
 
     def action_restore(self) -> None:
         """Restore the old value; if there is none to restore, the next digit presses a softkey."""
-        self.quiet()
+        self.clear_notice()
         if self.half_typed or self.current is None:
             typed = self.half_typed
             self.forget_typed()
@@ -278,8 +278,8 @@ class FormScreen(BaseScreen):
         if isinstance(self._armed, NumberField):
             self._armed.softkey_digits = False
         self._armed = None
-        if self.said is not None and self.said.text == ARMED_PROMPT:
-            self.quiet()
+        if self.notice is not None and self.notice.text == ARMED_PROMPT:
+            self.clear_notice()
 
     @property
     def armed(self) -> bool:

@@ -183,7 +183,7 @@ class HomeScreen(BaseScreen):
         each = self.chosen
         if each is not None and each.path != self._in_hand:
             self._in_hand = each.path
-            self.quiet()
+            self.clear_notice()
         if each is not None and each.program:
             self._preview(each.path, each.name)
         elif each is not None:

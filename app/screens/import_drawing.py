@@ -280,7 +280,7 @@ class ImportScreen(BaseScreen):
     def _tell_progress(self, progress: Progress) -> None:
         percent = 100 * progress.done // max(progress.whole, 1)
         self._working = f"{STAGE_NAMES.get(progress.stage, progress.stage)} {self.path.name}  {percent} %   Esc stops."
-        self.said = None
+        self.notice = None
         self.refresh_frame()
 
     def _fail(self, text: str) -> None:
@@ -297,7 +297,7 @@ class ImportScreen(BaseScreen):
         self.lines.clear()
         self._unfolded.clear()
         self._backdrop = listed.contours
-        self.quiet()
+        self.clear_notice()
         self.show_state()
         self._show_rows(1)
         if not listed.contours:
@@ -402,7 +402,7 @@ class ImportScreen(BaseScreen):
     @on(DataTable.RowHighlighted)
     def _highlighted(self) -> None:
         if not self._failed:
-            self.quiet()
+            self.clear_notice()
         self._show_row()
 
     def action_mark(self) -> None:

@@ -208,7 +208,7 @@ class ToolsScreen(FormScreen):
 
     def action_row(self, by: int) -> None:
         """Go to the same field of the previous or next tool, wrapping around."""
-        self.quiet()
+        self.clear_notice()
         count = len(self.current_session.program.tools)
         if not count or not self.take():
             return
@@ -218,7 +218,7 @@ class ToolsScreen(FormScreen):
     def action_accept(self) -> None:
         """Take the field and go to the next one; on the last one the cursor stays."""
         if self.current is not None and self.current.name == self.names()[-1]:
-            self.quiet()
+            self.clear_notice()
             self.take()
         else:
             super().action_accept()

@@ -8,7 +8,7 @@ from threading import Event
 import pytest
 
 import app.derivation_actions as app_module
-from app.derivation_actions import QUIET
+from app.derivation_actions import ADVICE_DELAY
 from app.screens.contour import ContourScreen
 from core.program.model import Block, CutterComp, LineSegment, Number, Program, Tool
 from core.progress import Stopped
@@ -39,7 +39,7 @@ async def advised(user: Operator) -> list[str]:
         table = user.session.lookahead_table
         if table is not None and table.complete:
             break
-        await user.pilot.pause(QUIET / 10)
+        await user.pilot.pause(ADVICE_DELAY / 10)
     await user.settle()
     assert isinstance(user.screen, ContourScreen)
     return [entry.text for entry in user.screen.entries]
@@ -79,10 +79,10 @@ async def test_a_key_ends_the_search_for_advice(monkeypatch):
     monkeypatch.setattr(app_module, "advised", searching)
     async with operator(slot()) as user:
         while not searches:
-            await user.pilot.pause(QUIET / 10)
+            await user.pilot.pause(ADVICE_DELAY / 10)
         await user.press("tab", "2")
         with pytest.raises(Stopped):
             searches[0](0.0)
         go.set()
-        await user.pilot.pause(QUIET / 10)
+        await user.pilot.pause(ADVICE_DELAY / 10)
         assert not user.session.lookahead_table.complete

@@ -44,7 +44,7 @@ async def test_ready_names_the_segments_that_the_look_ahead_deletes(
     user: Operator, name: str, lookahead: int, path: PathChoice, deleted: str, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     # without the search for advice, which takes time
-    monkeypatch.setattr("app.derivation_actions.QUIET", 1000.0)
+    monkeypatch.setattr("app.derivation_actions.ADVICE_DELAY", 1000.0)
     await user.begin(program(name, lookahead, path))
     user.app.action_post()
     await user.settle()

@@ -167,7 +167,7 @@ class Life:
     def seen(self) -> tuple[object, ...]:
         """What a key may change."""
         app, focused = self.app, self.app.focused
-        said = app.screen.said if isinstance(app.screen, BaseScreen) else None
+        said = app.screen.notice if isinstance(app.screen, BaseScreen) else None
         held = [getattr(focused, name, None) for name in ("value", "cursor_position", "cursor_row", "highlighted")]
         text = [screen.document for screen in app.screen_stack if isinstance(screen, ProofScreen)]
         # a listing has no value: its place stands for it

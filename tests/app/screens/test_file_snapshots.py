@@ -60,7 +60,7 @@ WALKS = {
 def same_everywhere(monkeypatch: pytest.MonkeyPatch) -> None:
     """Set the time to noon of one day and read drawings in this process."""
     monkeypatch.setattr(CutcompApp, "now", lambda _: NOON)
-    monkeypatch.setattr("app.derivation_actions.QUIET", 1000.0)
+    monkeypatch.setattr("app.derivation_actions.ADVICE_DELAY", 1000.0)
     monkeypatch.setattr("app.screens.import_drawing.Worker", InlineWorker)
 
 

@@ -80,7 +80,7 @@ WALKS: dict[str, tuple[str, list[Part]]] = {
 def same_everywhere(monkeypatch: pytest.MonkeyPatch) -> None:
     """Set the time to noon of one day and turn off the search for advice, which takes time."""
     monkeypatch.setattr(CutcompApp, "now", lambda _: NOON)
-    monkeypatch.setattr("app.derivation_actions.QUIET", 1000.0)
+    monkeypatch.setattr("app.derivation_actions.ADVICE_DELAY", 1000.0)
 
 
 @pytest.fixture

@@ -74,7 +74,7 @@ class Importer(Operator):
         for _ in range(400):
             await self.pilot.pause(0.01)
             at_rest = not isinstance(self.app.screen, ImportScreen) or not self.app.screen._working
-            if at_rest and (self.app.screen is not self.importing or self.importing.said or self.importing.listed):
+            if at_rest and (self.app.screen is not self.importing or self.importing.notice or self.importing.listed):
                 break
         await self.settle()
 
