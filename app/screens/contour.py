@@ -35,10 +35,10 @@ from app.session.guide import on_form
 from app.session.messages import Sentence, Tone
 from app.session.session import Cursor, Session
 from app.session.work import Work
+from app.widgets.block_drawings import BlockDrawings
 from app.widgets.drawing import Drawing
 from app.widgets.field import LISTED_FIELDS, ChoiceField, Form, NumberField
 from app.widgets.findings_list import FindingsList
-from app.widgets.picture import Picture
 from app.widgets.plain import PlainLabel
 from app.widgets.segment_list import SegmentList
 from app.widgets.softkeys import Softkey
@@ -177,7 +177,7 @@ class ContourScreen(FormScreen):
                 with Vertical(id="fields"):
                     yield self._made_form(session)
             yield Verdict(id="verdict", classes="panel")
-        yield Picture(id="picture")
+        yield BlockDrawings(id="drawings")
         yield SegmentList(id="segments", classes="panel")
         yield FindingsList(id="findings", classes="panel")
 
@@ -262,12 +262,12 @@ class ContourScreen(FormScreen):
         self._show_lists(displayed)
         if block.complete or before is not None:
             # skipped in the first paint, which must not load the numeric libraries
-            self._show_picture(displayed)
+            self._show_drawings(displayed)
 
     def show_signs(self) -> None:
         """Redraw the signs of the segment list and of the loupe's title."""
         self._show_lists(self.host.displayed)
-        self._show_picture(self.host.displayed)
+        self._show_drawings(self.host.displayed)
 
     def show_work(self, work: Work | None) -> None:
         """Show the progress in the verdict's title too; the last verdict stays until the work is done."""
@@ -309,12 +309,12 @@ class ContourScreen(FormScreen):
         """The findings that have a position in the drawing."""
         return [entry for entry in self.entries if entry.at is not None]
 
-    def _show_picture(self, displayed: Session) -> None:
+    def _show_drawings(self, displayed: Session) -> None:
         placed = self.placed
         in_hand = self.in_hand
         if in_hand is None and not displayed.place.segment and placed:
             in_hand = 0
-        self.query_one(Picture).show(displayed, placed, in_hand, self.host.characters)
+        self.query_one(BlockDrawings).show(displayed, placed, in_hand, self.host.characters)
 
     def action_finding(self, by: int) -> None:
         """Move the loupe to the next or previous finding; on START it is on the first one at the beginning."""
@@ -328,7 +328,7 @@ class ContourScreen(FormScreen):
             self.say("There are no findings.")
             return
         self.in_hand = (0 if by > 0 else len(placed) - 1) if here is None else (here + by) % len(placed)
-        self._show_picture(self.host.displayed)
+        self._show_drawings(self.host.displayed)
         self.query_one(FindingsList).highlighted = self.entries.index(placed[self.in_hand])
 
     @on(Drawing.Picked)
@@ -341,7 +341,7 @@ class ContourScreen(FormScreen):
         near = [at for at, entry in enumerate(placed) if entry.at is not None and dist(entry.at, event.at) <= reach]
         if near and event.drawing.id == "outline":
             self.in_hand = near[0]
-            self._show_picture(self.host.displayed)
+            self._show_drawings(self.host.displayed)
             self.query_one(FindingsList).highlighted = self.entries.index(placed[near[0]])
         elif (segment := nearest_segment(self.current_session.derived_block, event.at)) is not None and self.take():
             self.go(segment)
@@ -422,7 +422,7 @@ class ContourScreen(FormScreen):
         entry = self.entries[event.option_index]
         placed = self.placed
         self.in_hand = placed.index(entry) if entry in placed else None
-        self._show_picture(self.host.displayed)
+        self._show_drawings(self.host.displayed)
 
     @on(OptionList.OptionSelected, "#findings")
     def _finding_chosen(self, event: OptionList.OptionSelected) -> None:

@@ -1,4 +1,4 @@
-"""Picture shows a block in two drawings: the whole part, and the loupe on the selected finding or the segment."""
+"""BlockDrawings shows a block in two drawings: the whole part, and the loupe on the selected finding or the segment."""
 
 from __future__ import annotations
 
@@ -26,7 +26,7 @@ MAX_NUMBERED: Final = 9
 """The most findings with a number in PART: a number is one character."""
 
 
-class Picture(Horizontal):
+class BlockDrawings(Horizontal):
     """PART, a small outline, or if there is room the whole part, and the loupe; hidden drawings are not made."""
 
     def compose(self) -> ComposeResult:
