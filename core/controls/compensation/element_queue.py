@@ -149,7 +149,7 @@ class OneMoveQueue(ElementQueue):
             self.leave()
         self.active, self.first = False, True
 
-    def close(self) -> None:
+    def end_of_program(self) -> None:
         """End of the program: run the held move to its offset point."""
         if self.held is not None:
             self._run_out((self.standing or [self.held])[-1].line)

@@ -72,13 +72,13 @@ class Control(Recorder):
 
     machine: Machine
 
-    def begin(self, side: Side, block: Block) -> None:
+    def compensation_on(self, side: Side, block: Block) -> None:
         """Handle G41 or G42, also if already active, before the block's motion."""
 
-    def finish(self, block: Block) -> None:
+    def compensation_off(self, block: Block) -> None:
         """Handle G40 before the block's motion."""
 
-    def watch(self, block: Block) -> None:
+    def before_block(self, block: Block) -> None:
         """Look at a block before any of it takes effect."""
 
     def tool_called(self, number: int, block: Block) -> None:
@@ -87,7 +87,7 @@ class Control(Recorder):
     def tool_changed(self) -> None:
         """Handle M6 after it has taken effect."""
 
-    def idle(self, block: Block) -> None:
+    def block_without_motion(self, block: Block) -> None:
         """Handle a block without motion under compensation, after its codes."""
 
     def maker_code(self, code: int, block: Block) -> None:
@@ -100,7 +100,7 @@ class Control(Recorder):
     def program_stop(self) -> None:
         """Handle M0, M1 or M60 after the block's motion."""
 
-    def close(self) -> None:
+    def end_of_program(self) -> None:
         """Handle the end of the program."""
 
 
@@ -115,7 +115,7 @@ class Machine(ModalState):
 
     def step(self, block: Block) -> None:
         """Run one block: its codes, then its motion."""
-        self.control.watch(block)
+        self.control.before_block(block)
         non_modal = self._codes(block)
         if non_modal is None:
             self._motion(block)
@@ -254,10 +254,10 @@ class Machine(ModalState):
         match code.action:
             case CodeAction.SIDE if code.value == 400:
                 self.side_on = False
-                self.control.finish(block)
+                self.control.compensation_off(block)
             case CodeAction.SIDE:
                 self.side_on = True
-                self.control.begin(Side.LEFT if code.value // 10 == 41 else Side.RIGHT, block)
+                self.control.compensation_on(Side.LEFT if code.value // 10 == 41 else Side.RIGHT, block)
             case CodeAction.SYSTEM:
                 self._select_system(code.value, block)
             case CodeAction.UNSHIFT:
@@ -327,7 +327,7 @@ class Machine(ModalState):
                 self.log.stop("ARC", text, block.line, block.column("G", mode))
             self._straight(block, self.position, rapid=mode == 0)
         elif self.control.active:
-            self.control.idle(block)
+            self.control.block_without_motion(block)
 
     def _travel(self, block: Block, mode: int | None) -> None:
         if mode in _LINE_CODES:
@@ -533,7 +533,7 @@ class Machine(ModalState):
             text = "cutcomp takes X with G4 as the time to wait; nothing moves."
             self.log.tell(Severity.INFO, "DWELL", text, block.line, block.column("X"))
         if self.control.active:
-            self.control.idle(block)
+            self.control.block_without_motion(block)
 
     def _move_in_machine(self, block: Block) -> None:
         """Run G53: count this block from machine zero."""

@@ -134,7 +134,7 @@ class Fanuc(VectorQueue, Control):
         self.calls_counted = False
         self.away = False
 
-    def watch(self, block: Block) -> None:
+    def before_block(self, block: Block) -> None:
         """Count the block before, then check this one, read its D, and suspend compensation if the block does."""
         self._count()
         self.block, self.in_plane, self.exiting = block, False, False
@@ -196,7 +196,7 @@ class Fanuc(VectorQueue, Control):
         machine.compare_offset(radius, f"D{number}", line, column)
         return radius
 
-    def begin(self, side: Side, block: Block) -> None:
+    def compensation_on(self, side: Side, block: Block) -> None:
         """G41 and G42: start compensation, change the side, or repeat it."""
         old, self.side = self.side, side
         if not self.active:
@@ -234,7 +234,7 @@ class Fanuc(VectorQueue, Control):
         self.radius = self._offset_value(line, column)
         self.coming = self.radius * (self.side.sign if self.side else 0)
 
-    def finish(self, block: Block) -> None:
+    def compensation_off(self, block: Block) -> None:
         """G40: turn compensation off, with the block's I, J or K as exit vector."""
         self.side = None
         if self.active:
@@ -386,7 +386,7 @@ class Fanuc(VectorQueue, Control):
         self.close_stretch()
         self.away = True
 
-    def close(self) -> None:
+    def end_of_program(self) -> None:
         """End of the program: under compensation the last move ends square."""
         line = self.block.line if self.block else 1
         if self.active:

@@ -51,12 +51,12 @@ class Haas(fanuc.Fanuc):
 
     alarms = Alarms(arc="H340", arc_off="H341", no_meeting="H342", crossing="H342", point="H342")
 
-    def begin(self, side: Side, block: Block) -> None:
+    def compensation_on(self, side: Side, block: Block) -> None:
         """G41 and G42: start compensation; warn outside G17, where older controls have none."""
         if self.plane is not Plane.XY:
             text = "Older Haas controls compensate in G17 only (alarm 344)."
             self.log.tell(Severity.WARNING, "H344", text, block.line, block.side_column())
-        super().begin(side, block)
+        super().compensation_on(side, block)
 
     def assumed_parameters(self) -> str:
         """Return the sentence about the settings and about what the manuals do not say."""

@@ -93,7 +93,7 @@ class LinuxCnc(OneMoveQueue, Control):
         super().__init__(log)
         self.diameters = False
 
-    def watch(self, block: Block) -> None:
+    def before_block(self, block: Block) -> None:
         """Stop the run at words that no code in their block uses, and at codes that are not allowed."""
         self.machine.check_codes(block)
         if any(DIALECT.codes[code].action is CodeAction.UNSUPPORTED for code in block.g if code in DIALECT.codes):
@@ -243,7 +243,7 @@ class LinuxCnc(OneMoveQueue, Control):
         """M0, M1 and M60: run the held move to its own end at once."""
         self.run_out_at_stop()
 
-    def begin(self, side: Side, block: Block) -> None:
+    def compensation_on(self, side: Side, block: Block) -> None:
         """G41, G42, G41.1 and G42.1: turn compensation on."""
         if self.machine.plane is Plane.YZ:
             text = "Compensation works in the planes G17 and G18 only; write one of them before it."
@@ -260,7 +260,7 @@ class LinuxCnc(OneMoveQueue, Control):
             self.machine.compare_offset(radius, f"D{block.words['D']:g}", block.line, block.column("D"))
         self.turn_on(radius * side.sign, orientation)
 
-    def finish(self, block: Block) -> None:
+    def compensation_off(self, block: Block) -> None:
         """G40: turn compensation off."""
         self.turn_off(block.line)
 

@@ -94,7 +94,7 @@ class NineSeries(ElementQueue, Control):
         self.motionless = 0
         self.before = Before(0, None, None, ())
 
-    def watch(self, block: Block) -> None:
+    def before_block(self, block: Block) -> None:
         """Act on everything in a block but its motion: D, M800 and M801, stops, and changes of origin or plane."""
         if "D" in block.words:
             self._take_number(block)
@@ -161,7 +161,7 @@ class NineSeries(ElementQueue, Control):
             words = f"This depends on a value the machine builder sets (first at this line): {text}"
             self.log.tell(Severity.INFO, rule, words, line, 1)
 
-    def begin(self, side: Side, block: Block) -> None:
+    def compensation_on(self, side: Side, block: Block) -> None:
         """G41 and G42: start compensation or change the side."""
         if self.exit_block is not None:
             self.release_at_end()
@@ -178,7 +178,7 @@ class NineSeries(ElementQueue, Control):
         text = "Compensation cannot be started in G2 or G3; write G1 and a straight entry move."
         self.log.stop("R1", text, line, column)
 
-    def finish(self, block: Block) -> None:
+    def compensation_off(self, block: Block) -> None:
         """G40: make the next straight move in the plane the exit, or cancel at once if no move is held."""
         if self.entering and self.held is not None:
             self._without_offset(self.held)
@@ -187,7 +187,7 @@ class NineSeries(ElementQueue, Control):
         elif self.active:
             self.exit_block = block
 
-    def idle(self, block: Block) -> None:
+    def block_without_motion(self, block: Block) -> None:
         """Count a block without motion in the plane; after too many, the held move ends square."""
         self.motionless += 1
         if self.motionless <= NON_MOTION or self.held is None or self.exit_block is not None:
@@ -353,7 +353,7 @@ class NineSeries(ElementQueue, Control):
             self.straight(element, last.end)
         self.held, self.start, self.standing, self.entering = None, None, [], True
 
-    def close(self) -> None:
+    def end_of_program(self) -> None:
         """End of the program: cancel compensation; the held move ends square."""
         if self.entering and self.held is not None:
             self._without_offset(self.held)

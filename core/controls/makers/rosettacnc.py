@@ -110,7 +110,7 @@ class RosettaCnc(Control):
         radius = tool.diameter_mm(machine.unit) / 2 if tool else 0.0
         return radius - block.words.pop("I", 0.0) * machine.scale
 
-    def watch(self, block: Block) -> None:
+    def before_block(self, block: Block) -> None:
         """Stop the run at what NIST's list forbids under compensation; cutcomp assumes that the list holds here."""
         self.machine.check_codes(block)
         if "D" in block.words and COMPENSATION_CODES.isdisjoint(block.g):
@@ -130,13 +130,13 @@ class NormalEntry(OneMoveQueue, RosettaCnc):
 
     alarms = AlarmCodes("C8", "C7", "C6", "C8")
 
-    def begin(self, side: Side, block: Block) -> None:
+    def compensation_on(self, side: Side, block: Block) -> None:
         """G41, G42, G41.1 and G42.1: turn compensation on."""
         self.turn_on(self.asked_offset(side, block))
         text = "The entry follows LinuxCNC: square to its own move. cutcomp assumes this; the manual does not say."
         self.log.tell(Severity.INFO, "ENTRY", text, block.line, block.side_column())
 
-    def finish(self, block: Block) -> None:
+    def compensation_off(self, block: Block) -> None:
         """G40: turn compensation off."""
         self.turn_off(block.line)
 
@@ -151,19 +151,19 @@ class NistEntry(ElementQueue, RosettaCnc):
         self.before: Element | None = None
         self.first = True
 
-    def watch(self, block: Block) -> None:
+    def before_block(self, block: Block) -> None:
         """Stop the run at what is refused, which includes a change of unit."""
-        super().watch(block)
+        super().before_block(block)
         if self.active and not {200, 210}.isdisjoint(block.g):
             text = "The unit cannot change under compensation. cutcomp assumes this from NIST's list."
             self.log.stop("C8", text, block.line, block.side_column())
 
-    def begin(self, side: Side, block: Block) -> None:
+    def compensation_on(self, side: Side, block: Block) -> None:
         """G41, G42, G41.1 and G42.1: turn compensation on."""
         self.offset = self.asked_offset(side, block)
         self.active, self.first, self.before = True, True, None
 
-    def finish(self, _: Block) -> None:
+    def compensation_off(self, _: Block) -> None:
         """G40: make no move; the next one starts where the tool is."""
         if self.active and self.offset and not self.first:
             self.leave()
@@ -245,12 +245,12 @@ class EasyEntry(NistEntry):
         self.run_held(point)
         self.first = False
 
-    def finish(self, block: Block) -> None:
+    def compensation_off(self, block: Block) -> None:
         """G40: end a first move that still waits at its own offset point."""
-        self.close()
-        super().finish(block)
+        self.end_of_program()
+        super().compensation_off(block)
 
-    def close(self) -> None:
+    def end_of_program(self) -> None:
         """End of the program: end a first move that still waits at its own offset point."""
         if self.held is not None:
             self._end_entry(offset_end(self.held, self.offset))

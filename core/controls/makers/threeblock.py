@@ -70,7 +70,7 @@ class ThreeBlock(ElementQueue, Control):
         self.narrow = False
         self.inserted = False
 
-    def watch(self, block: Block) -> None:
+    def before_block(self, block: Block) -> None:
         """Check the rules for any block, and those for a block under compensation."""
         self.opening = False
         self.machine.check_codes(block)
@@ -128,7 +128,7 @@ class ThreeBlock(ElementQueue, Control):
             self.log.tell(Severity.INFO, "G45", text, block.line, block.column("G", 450))
         self.ratio = code == 450 if code in (440, 450) else self.ratio
 
-    def begin(self, side: Side, block: Block) -> None:
+    def compensation_on(self, side: Side, block: Block) -> None:
         """G41, G42: check the conditions, and apply the offset from the next block on."""
         column = block.side_column()
         if self.active:
@@ -172,7 +172,7 @@ class ThreeBlock(ElementQueue, Control):
         self.note_radius(diameter / 2, "NEGATIVE", text, block.line, block.side_column())
         return diameter / 2
 
-    def idle(self, block: Block) -> None:
+    def block_without_motion(self, block: Block) -> None:
         """Stop the run at a block that moves nothing, unless it is the one with G41 or G42."""
         if not self.opening:
             text = "Under compensation every block must move the tool. Remove this one."
@@ -276,7 +276,7 @@ class ThreeBlock(ElementQueue, Control):
             return element.feed
         return element.feed * abs(offset_radius(element, self.offset)) / element.radius
 
-    def finish(self, block: Block) -> None:
+    def compensation_off(self, block: Block) -> None:
         """G40: end the last element square; the block's own move follows without compensation."""
         if not self.active:
             return
@@ -299,7 +299,7 @@ class ThreeBlock(ElementQueue, Control):
         text = "The move that leaves compensation must be straight. Write G0 or G1. The manual only implies this."
         self.log.stop("B20-G40ARC", text, line, column)
 
-    def close(self) -> None:
+    def end_of_program(self) -> None:
         """End of the program: report compensation that is still on, and end the last element square."""
         if self.active:
             text = "The program ends with compensation on. Write a block with G40. That it needs one is an assumption."
