@@ -145,7 +145,7 @@ class AlarmError(Exception):
         self.line = line
 
 
-def more_alike(code: str, lines: Sequence[int | None]) -> Finding:
+def finding_of_omitted(code: str, lines: Sequence[int | None]) -> Finding:
     """Return the finding that counts the further findings of a rule, at the first of their lines."""
     more = f"{code}: {len(lines)} more {'line' if len(lines) == 1 else 'lines'} like these."
     return Finding(code, Severity.INFO, more, line=lines[0])
@@ -191,7 +191,7 @@ class Log:
         """True if a finding of this rule was kept."""
         return self.kept[code, True] > 0 or self.kept[code, False] > 0
 
-    def tell(
+    def report(
         self,
         severity: Severity,
         code: str,
@@ -224,7 +224,7 @@ class Log:
         finding = Finding(code, Severity.ERROR, text, at=at, lengths=lengths, line=line, column=column, tool=tool)
         raise AlarmError(finding, stops_at or line)
 
-    def closed(self) -> tuple[Finding, ...]:
+    def all_findings(self) -> tuple[Finding, ...]:
         """Return all findings by line, and one more for each rule that has findings left out."""
-        listed = (*self.findings, *map(more_alike, self.left_out, self.left_out.values()))
+        listed = (*self.findings, *map(finding_of_omitted, self.left_out, self.left_out.values()))
         return tuple(sorted(listed, key=lambda finding: (finding.line or 0, finding.column or 0)))

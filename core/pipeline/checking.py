@@ -12,7 +12,7 @@ from typing import Final
 from core.controls.compared_contours import ContourPair, Parting, contours
 from core.controls.compared_controls import Compared, OtherLanguage, compare
 from core.controls.control_names import display_name
-from core.controls.control_run import MAX_ALIKE, ControlRun, more_alike
+from core.controls.control_run import MAX_ALIKE, ControlRun, finding_of_omitted
 from core.controls.control_tools import ToolId, ToolTable
 from core.controls.iso.flow import ProgramLibrary, no_library
 from core.controls.iso.modal_state import RADIUS_ZERO
@@ -306,7 +306,7 @@ def _with_few_alike(findings: Iterable[Finding], unit: Unit) -> Iterator[Finding
             yield finding
         else:
             left_out.setdefault(finding.code, []).append(finding.line)
-    yield from map(more_alike, left_out, left_out.values())
+    yield from map(finding_of_omitted, left_out, left_out.values())
 
 
 def _by_line(findings: tuple[Finding, ...]) -> tuple[Finding, ...]:

@@ -125,9 +125,9 @@ class Recorder:
         """Note whether a radius is a wear; report a negative one with the sentence that it flips the side."""
         self.wear = -MAX_WEAR <= radius < 0.0
         if self.wear:
-            self.log.tell(Severity.WARNING, rule, f"{flips} {_WEAR_LEFT_OUT}", line, column)
+            self.log.report(Severity.WARNING, rule, f"{flips} {_WEAR_LEFT_OUT}", line, column)
         elif radius < 0.0:
-            self.log.tell(Severity.INFO, rule, f"{flips} {_OUTLINE_JUDGED}", line, column)
+            self.log.report(Severity.INFO, rule, f"{flips} {_OUTLINE_JUDGED}", line, column)
 
     def open_stretch(self, offset: float, element: Element) -> None:
         """Begin a stretch of compensated moves with this element; moves already on the tape come before it."""

@@ -55,7 +55,7 @@ def drill(state: ModalState, block: Block) -> Iterator[DrillMove]:
     code = state.mode or 0
     if not state.dialect.cycles or code in _CYCLES_NOT_FOLLOWED:
         text = "cutcomp follows this cycle's hole positions but not its depth."
-        state.log.tell(Severity.WARNING, "CYCLE", text, block.line, 1)
+        state.log.report(Severity.WARNING, "CYCLE", text, block.line, 1)
         first, second, _ = flat(state.target(block.words), state.plane)
         yield solid(first, second, flat(state.position, state.plane)[2], state.plane), True
         return
@@ -82,7 +82,7 @@ def _take_values(state: ModalState, code: int, block: Block) -> None:
         if needed == "R" and needed not in words and not state.dialect.cycle_r_needed:
             cycle.r = 0.0 if _counts_from_here(state) else cycle.began
             text = "The cycle has no R; cutcomp takes the height at which it begins."
-            state.log.tell(Severity.INFO, "CYCLE", text, block.line, block.column("G"))
+            state.log.report(Severity.INFO, "CYCLE", text, block.line, block.column("G"))
         elif needed not in words:
             _stop(state, f"{needed} is missing: the first G{code // 10} block needs it.", block)
     to_heights = state.incremental and state.dialect.fanuc_cycles

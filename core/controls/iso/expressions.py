@@ -459,7 +459,7 @@ def evaluated_line(line: CompactText, number: int, values: MacroParameters, log:
             _item(reader, line, words, settings)
     except FaultError as fault:
         log.stop(fault.code, fault.text, number, line.column(fault.at))
-    tell_unset(reader, line, number, log)
+    report_unset(reader, line, number, log)
     for key, value in settings:
         values.set(key, value)
     return words
@@ -506,11 +506,11 @@ def _setting(reader: ExpressionReader) -> Setting:
     return key, reader.right_side()
 
 
-def tell_unset(reader: ExpressionReader, line: CompactText, number: int, log: Log) -> None:
+def report_unset(reader: ExpressionReader, line: CompactText, number: int, log: Log) -> None:
     """Warn of parameters that were read before anything set them."""
     for index, at in reader.unset:
         text = f"The program does not set #{index}; cutcomp takes 0, and the control may keep another value in it."
-        log.tell(Severity.WARNING, "PARAMETER", text, number, line.column(at))
+        log.report(Severity.WARNING, "PARAMETER", text, number, line.column(at))
 
 
 def exact(value: float) -> str:

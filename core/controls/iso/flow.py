@@ -21,7 +21,7 @@ from core.controls.iso.expressions import (
     ExpressionReader,
     FaultError,
     MacroParameters,
-    tell_unset,
+    report_unset,
 )
 from core.controls.iso.machine import Control, Machine
 from core.controls.iso.reader import (
@@ -214,7 +214,7 @@ class Flow:
             return self._return(block)
         elif "O" in block.words and not self._numbers() and self.first_code < self.at - 1:
             text = "The program runs into a subprogram; end it with M30 or M2 before the subprograms."
-            self.log.tell(Severity.WARNING, "SUBPROGRAM", text, block.line, block.column("O"))
+            self.log.report(Severity.WARNING, "SUBPROGRAM", text, block.line, block.column("O"))
         return True
 
     def _numbers(self) -> set[int]:
@@ -251,7 +251,7 @@ class Flow:
             self.log.stop("OWORD", text, block.line, block.column("M", 990))
         if len(self.calls) == 1:
             text = "M99 in the main program starts it again without end; cutcomp ends the run at it."
-            self.log.tell(Severity.INFO, "SUBPROGRAM", text, block.line, block.column("M", 990))
+            self.log.report(Severity.INFO, "SUBPROGRAM", text, block.line, block.column("M", 990))
             return False
         call = self.calls[-1]
         if call.again:
@@ -285,7 +285,7 @@ class Flow:
         # a subprogram that a condition skips needs no warning
         closed = any(self.lines[row].strip() == "%" for row in range(last, after))
         if closed or not self.lines[after].lstrip().upper().startswith("O") or self._is_uncalled(after):
-            self.log.tell(Severity.WARNING, "NOT_RUN", NOT_RUN_TEXT, after + 1, 1)
+            self.log.report(Severity.WARNING, "NOT_RUN", NOT_RUN_TEXT, after + 1, 1)
 
     def _is_uncalled(self, row: int) -> bool:
         """True if a row is a program's O and number alone, and no line has that number in a P."""
@@ -296,9 +296,9 @@ class Flow:
         """Warn that the file ends inside a subprogram, or without the end that the control needs."""
         if len(self.calls) > 1:
             text = "The file ends inside a subprogram; end the subprogram with M99."
-            self.log.tell(Severity.WARNING, "SUBPROGRAM", text, len(self.lines), 1)
+            self.log.report(Severity.WARNING, "SUBPROGRAM", text, len(self.lines), 1)
         elif self.dialect.end_needed and self.percents < 2:
-            self.log.tell(Severity.WARNING, "END", "The program has no end; write M2 or M30.", len(self.lines), 1)
+            self.log.report(Severity.WARNING, "END", "The program has no end; write M2 or M30.", len(self.lines), 1)
 
 
 class OWordFlow(Flow):
@@ -398,7 +398,7 @@ class OWordFlow(Flow):
                 raise FaultError("OWORD", rest, reader.at)
         except FaultError as fault:
             self._fault(word, fault)
-        tell_unset(reader, word.line, word.row + 1, self.log)
+        report_unset(reader, word.line, word.row + 1, self.log)
         return values
 
     def _value(self, word: OWord, what: str = "a condition") -> float:

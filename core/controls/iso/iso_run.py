@@ -67,7 +67,9 @@ def run_iso(
     unit = machine.first_unit or machine.unit
     tape, stretches = control.tape, tuple(control.stretches)
     spindle = tuple(machine.spindle)
-    run = ControlRun(name, unit, tape.moves(), log.closed(), stopped_at, stretches, frozenset(tape.unplaced), spindle)
+    run = ControlRun(
+        name, unit, tape.moves(), log.all_findings(), stopped_at, stretches, frozenset(tape.unplaced), spindle
+    )
     return _by_main_lines(run, flow)
 
 

@@ -202,7 +202,7 @@ class Machine(ModalState):
             if code.group in groups and self.dialect.last_code_counts:
                 known = [other for other in known if other.group != code.group]
                 text = f"G{number / 10:g} is the second G code of its group in this block; the last one counts."
-                self.log.tell(Severity.WARNING, self.dialect.group_rule, text, block.line, block.column("G", number))
+                self.log.report(Severity.WARNING, self.dialect.group_rule, text, block.line, block.column("G", number))
             elif code.group in groups:
                 text = f"G{number / 10:g} is the second G code of its group in this block; keep one."
                 self.log.stop(self.dialect.group_rule, text, block.line, block.column("G", number))
@@ -214,7 +214,7 @@ class Machine(ModalState):
                 text = "cutcomp does not know which counts, the motion or the cycle. Write them in two blocks."
                 self.log.stop(rule, text, block.line, column)
             text = "G0 to G3 next to a drilling cycle cancels the cycle. Write them in two blocks."
-            self.log.tell(Severity.WARNING, rule, text, block.line, column)
+            self.log.report(Severity.WARNING, rule, text, block.line, column)
             known = [code for code in known if code.action is not CodeAction.CYCLE]
         known.sort(key=lambda code: _ACTION_ORDER.get(code.action, _LATEST))
         return known
@@ -289,7 +289,7 @@ class Machine(ModalState):
             self.control.tool_changed()
         if self.control.active and self.side_on and 400 not in block.g and self.tool != before:
             text = f"Tool {self.tool} is loaded, and compensation goes on with the radius in force. Write G40 first."
-            self.log.tell(Severity.WARNING, "OFFSET", text, block.line, block.column("TM"))
+            self.log.report(Severity.WARNING, "OFFSET", text, block.line, block.column("TM"))
 
     def _note_spindle(self) -> None:
         """Note the tool and the speed in force, if one has changed; without an M6, the tool is that of the T."""
@@ -301,7 +301,7 @@ class Machine(ModalState):
         for letter in _OTHER_AXES:
             if letter in block.words:
                 text = f"cutcomp does not follow axis {letter}, only X, Y and Z."
-                self.log.tell(Severity.WARNING, "AXIS", text, block.line, block.column(letter))
+                self.log.report(Severity.WARNING, "AXIS", text, block.line, block.column(letter))
 
     def _warn_of_unused(self, block: Block) -> None:
         """Warn of words that no code uses: a control may do something with them that cutcomp does not follow."""
@@ -310,7 +310,7 @@ class Machine(ModalState):
             text = f"No code in this block uses {' and '.join(unused)}. cutcomp ignores it."
             if not {"D", "H"}.isdisjoint(unused):
                 text = f"{text} {only_on(OFFSETS_ANYWHERE)}"
-            self.log.tell(Severity.WARNING, "UNUSED", text, block.line, block.column("".join(unused)))
+            self.log.report(Severity.WARNING, "UNUSED", text, block.line, block.column("".join(unused)))
 
     def _motion(self, block: Block) -> None:
         words, mode = block.words, self.mode
@@ -361,7 +361,7 @@ class Machine(ModalState):
         if not self.unit_said:
             name = "inches" if self.unit is Unit.IN else "millimeters"
             text = f"The program does not say its unit; cutcomp takes {name}."
-            self.log.tell(Severity.INFO, "UNIT", text, block.line, block.column("XYZ"))
+            self.log.report(Severity.INFO, "UNIT", text, block.line, block.column("XYZ"))
 
     def _arc(self, block: Block, turn: int) -> None:
         if not self.feed and self.rate == PER_MINUTE:
@@ -459,7 +459,7 @@ class Machine(ModalState):
         """Select a work offset; one that the program did not set is taken as zero, and except for G54 reported."""
         if code not in self.origin.systems and code != G54:
             text = f"The offset of G{code / 10:g} {TAKEN_AS_ZERO}"
-            self.log.tell(Severity.WARNING, "OFFSET", text, block.line, block.column("G", code))
+            self.log.report(Severity.WARNING, "OFFSET", text, block.line, block.column("G", code))
         self.set_origin(replace(self.origin, system=code))
 
     def _reading_as_written(self, block: Block, rest: Point3, old: Point3) -> Point3:
@@ -513,7 +513,7 @@ class Machine(ModalState):
     def _home(self, block: Block) -> None:
         """Run G28 or G30: move by way of the block's point to the reference point, taken as machine zero."""
         text = "The reference point is not known; cutcomp takes the machine's zero."
-        self.log.tell(Severity.WARNING, "HOME", text, block.line, block.column("G"))
+        self.log.report(Severity.WARNING, "HOME", text, block.line, block.column("G"))
         named = [letter in block.words for letter in "XYZ"]
         if any(named):
             self._straight(block, self.target(block.words), rapid=True)
@@ -531,7 +531,7 @@ class Machine(ModalState):
             self.log.stop("DWELL", text, block.line, block.column(wrong))
         if "X" in block.words:
             text = "cutcomp takes X with G4 as the time to wait; nothing moves."
-            self.log.tell(Severity.INFO, "DWELL", text, block.line, block.column("X"))
+            self.log.report(Severity.INFO, "DWELL", text, block.line, block.column("X"))
         if self.control.active:
             self.control.block_without_motion(block)
 

@@ -315,7 +315,7 @@ def set_variables(reader: MacroReader, line: CompactText, number: int, values: V
             raise FaultError(rule, f"{quoted(text[begin:])} cannot follow an assignment. Use its own block.", begin)
         if count:
             message = "A second assignment in this block; cutcomp runs both. Write them in two blocks."
-            log.tell(Severity.WARNING, "PS0127", message, number, line.column(begin))
+            log.report(Severity.WARNING, "PS0127", message, number, line.column(begin))
         key = reader.key()
         if text[reader.at : reader.at + 1] != "=":
             raise FaultError("PS0114", "A variable needs = and a value, or a letter before it.", begin)

@@ -184,7 +184,7 @@ class MacroFlow(Flow):
         main = next((row for row in programs if row not in self.called_programs), first)
         if main != first:
             text = f"cutcomp runs {self._name_of(main)}: {self._name_of(first)}, which stands before it, is called."
-            self.log.tell(Severity.INFO, "PROGRAM", text, self.numbers[main], self.starts[main] + 1)
+            self.log.report(Severity.INFO, "PROGRAM", text, self.numbers[main], self.starts[main] + 1)
         return main
 
     def _name_of(self, row: int) -> str:
@@ -202,7 +202,7 @@ class MacroFlow(Flow):
         alone = self.dialect.program_names and not bare[name.end() :].strip()
         return quoted(name[2]) if name[1] or alone else ""
 
-    def _tell_not_run(self) -> None:
+    def _report_not_run(self) -> None:
         """Report programs that neither ran nor are called, and words before the first % or after the end."""
         ranges = (self._range_of(row) for row in self._programs())
         idle = [first for first, last in ranges if first not in self.called_programs and not any(self.ran[first:last])]
@@ -211,13 +211,13 @@ class MacroFlow(Flow):
             more = f" and {len(idle) - MAX_NAMED_PROGRAMS} more" if len(idle) > MAX_NAMED_PROGRAMS else ""
             which = "a call with a variable may mean" if self.calls_by_variable else "nothing in this file calls"
             text = f"Programs that {which} were not run: {names}{more}. Check each by itself."
-            self.log.tell(Severity.WARNING, "NOT_RUN", text, self.numbers[idle[0]], 1)
+            self.log.report(Severity.WARNING, "NOT_RUN", text, self.numbers[idle[0]], 1)
         if self.line_before is not None:
             text = "The lines from here to the % stand before the program and were not run. Check them."
-            self.log.tell(Severity.WARNING, "NOT_RUN", text, self.line_before, 1)
+            self.log.report(Severity.WARNING, "NOT_RUN", text, self.line_before, 1)
         line_after = self._line_after_end() or self.unread_line
         if line_after is not None:
-            self.log.tell(Severity.WARNING, "NOT_RUN", NOT_RUN_TEXT, line_after, 1)
+            self.log.report(Severity.WARNING, "NOT_RUN", NOT_RUN_TEXT, line_after, 1)
 
     def _line_after_end(self) -> int | None:
         """Return the first line with words after the last row that ran; None if its N may be the target of a jump."""
@@ -234,12 +234,12 @@ class MacroFlow(Flow):
         for number, line in enumerate(lines, first_number):
             if _FOR_EDITORS.match(line):
                 message = f"A line for an editor or a simulator is ignored: {quoted(line.strip())}"
-                self.log.tell(Severity.INFO, "TEXT", message, number, 1)
+                self.log.report(Severity.INFO, "TEXT", message, number, 1)
                 continue
             for start, text in between_semicolons(line):
                 if start and _is_remark(text):
                     message = f"Text after the end of the block is ignored: {quoted(text)}"
-                    self.log.tell(Severity.INFO, "TEXT", message, number, start + 1)
+                    self.log.report(Severity.INFO, "TEXT", message, number, start + 1)
                     continue
                 row = len(self.lines)
                 self.lines.append(text)
@@ -333,7 +333,7 @@ class MacroFlow(Flow):
             self._fault(fault, row, statement.line)
         except AlarmByProgramError as alarm:
             self._program_alarm(alarm.number, row)
-        self._tell_unset(row)
+        self._report_unset(row)
         if not statement.keyword:
             yield from self._run_block(self._block(row, statement), row)
 
@@ -346,7 +346,7 @@ class MacroFlow(Flow):
             for match in pattern.finditer(bare):
                 self.no_point.append((match[0], self.numbers[row], match.start() + self.starts[row] + 1))
 
-    def _tell_unset(self, row: int) -> None:
+    def _report_unset(self, row: int) -> None:
         """Report the first common variable that a row reads before the program sets it."""
         unset, self.variables.unset = self.variables.unset, []
         if unset:
@@ -354,7 +354,7 @@ class MacroFlow(Flow):
                 f"The program does not set #{unset[0]}; cutcomp takes it as vacant, 0 in a sum. "
                 "The control may keep a value in it."
             )
-            self.log.tell(Severity.WARNING, "PARAMETER", text, self.numbers[row], 1)
+            self.log.report(Severity.WARNING, "PARAMETER", text, self.numbers[row], 1)
 
     def _statement(self, row: int) -> Statement:
         """Return a row as a macro statement, read once."""
@@ -418,7 +418,7 @@ class MacroFlow(Flow):
         set_variables(reader, line, self.numbers[row], self.variables, self.log)
         if "#3006=" in line.text:
             text = "The program shows a message here and waits for cycle start; cutcomp goes on."
-            self.log.tell(Severity.INFO, "FN-MESSAGE", text, self.numbers[row], 1)
+            self.log.report(Severity.INFO, "FN-MESSAGE", text, self.numbers[row], 1)
 
     def _if(self, reader: MacroReader, line: CompactText, row: int) -> int:
         true = reader.brackets() != 0.0
@@ -548,10 +548,10 @@ class MacroFlow(Flow):
             words, corner, skip = words_of(line, self.variables, increment, start)
         except FaultError as fault:
             self._fault(fault, row, line)
-        self._tell_unset(row)
+        self._report_unset(row)
         if skip:
             message = "Block skip is assumed off, so this block runs."
-            self.log.tell(Severity.INFO, "SKIP", message, number, skip)
+            self.log.report(Severity.INFO, "SKIP", message, number, skip)
         if not words:
             return None
         block = Block(number, line.text, self.starts[row], evaluated=words, corner=corner)
@@ -701,7 +701,7 @@ class MacroFlow(Flow):
         text = "\n".join(self.lines).upper()
         if self.variables.vacant_arguments and "M99" in text and not re.search(r"M0?2(?!\d)|M30", text):
             message = "This looks like the body of a macro: it reads arguments that nothing sets. Call it with G65."
-            self.log.tell(Severity.INFO, "FN-BODY", message, 1, 1)
+            self.log.report(Severity.INFO, "FN-BODY", message, 1, 1)
         if self.no_point:
             (word, *place), count = self.no_point[0], len(self.no_point)
             word = "".join(word.split())
@@ -713,14 +713,14 @@ class MacroFlow(Flow):
                 f"{which} no decimal point. cutcomp takes {word} as {plain(value)} {units}; "
                 f"{self.dialect.without_point} it is {least}."
             )
-            self.log.tell(Severity.WARNING, "FN-POINT", message, *place)
+            self.log.report(Severity.WARNING, "FN-POINT", message, *place)
         if not alarmed:
-            self._tell_not_run()
+            self._report_not_run()
 
     def end_of_file(self) -> None:
         """Warn that the program ends without M30, M02 or M99."""
         text = "The program has no end. Write M30, or M99 in a subprogram."
-        self.log.tell(Severity.WARNING, "END", text, self.numbers[-1] if self.numbers else 1, 1)
+        self.log.report(Severity.WARNING, "END", text, self.numbers[-1] if self.numbers else 1, 1)
 
 
 def arguments_of(block: Block) -> dict[int, float]:

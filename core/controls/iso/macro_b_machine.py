@@ -325,7 +325,7 @@ class MacroMachine(Machine):
                 words.pop(letter, None)
             if self._ends_where_it_starts(words):
                 text = "The arc with R ends where it starts: no move. A full circle needs I and J."
-                self.log.tell(Severity.WARNING, "FN-R", text, block.line, block.column("R"))
+                self.log.report(Severity.WARNING, "FN-R", text, block.line, block.column("R"))
                 return
             words["R"] *= abs(self.transform.factors[0])
         elif self.transform:
@@ -352,7 +352,7 @@ class MacroMachine(Machine):
             code = replace(code, value=830 - code.value)
         if code.action is CodeAction.UNAVAILABLE:
             text = f"G{code.value / 10:g} is not a code of this control; what it asks for is so anyway."
-            self.log.tell(Severity.WARNING, "FN-G911", text, block.line, block.column("G", code.value))
+            self.log.report(Severity.WARNING, "FN-G911", text, block.line, block.column("G", code.value))
             return
         super()._act(code, block)
 
@@ -365,7 +365,7 @@ class MacroMachine(Machine):
                 self._motion(block)
         elif code.action is CodeAction.SKIP:
             text = "Where a skip signal stops this move is not known; cutcomp runs it to its end."
-            self.log.tell(Severity.WARNING, "FN-SKIP", text, block.line, block.column("G", 310))
+            self.log.report(Severity.WARNING, "FN-SKIP", text, block.line, block.column("G", 310))
             self._straight(block, self.target(block.words), rapid=False)
         else:
             super()._run_non_modal(code, block)
@@ -410,7 +410,7 @@ class MacroMachine(Machine):
             self.log.stop("BEYOND", text, block.line, column)
         if code in (500, 501) and state.angle and (state.mirror or state.factors != UNSCALED):
             text = f"{name} stands before G69; cutcomp assumes that the rotation goes on as programmed."
-            self.log.tell(Severity.WARNING, "FN-ROTATION", text, block.line, column)
+            self.log.report(Severity.WARNING, "FN-ROTATION", text, block.line, column)
 
     def _scale(self, block: Block) -> None:
         """Run G51 P, or G51 I J K of one size, negative ones for a mirror image about the center of scaling.
@@ -448,7 +448,7 @@ class MacroMachine(Machine):
             self.log.stop("BEYOND", text, block.line, block.column(letters[0]))
         if len(letters) < len("IJK"):
             text = "cutcomp takes 1 for the axes without I, J or K. The control takes them from parameter 5421."
-            self.log.tell(Severity.WARNING, "FN-SCALE", text, block.line, block.column(letters[0]))
+            self.log.report(Severity.WARNING, "FN-SCALE", text, block.line, block.column(letters[0]))
         if self.transform.mirror and min(x, y, z) < 0.0:
             text = "cutcomp does not follow a mirror image by G51 and one by G51.1 together. Write out the moves."
             self.log.stop("BEYOND", text, block.line, block.column("G", 510))
@@ -467,10 +467,10 @@ class MacroMachine(Machine):
             self.log.stop("BEYOND", text, block.line, column)
         if self.incremental:
             text = "cutcomp takes R of G68 as an angle from 0. Under G91 the control may add it to the angle in force."
-            self.log.tell(Severity.WARNING, "FN-ROTATION", text, block.line, column)
+            self.log.report(Severity.WARNING, "FN-ROTATION", text, block.line, column)
         if self.transform.mirror or self.transform.factors != UNSCALED:
             text = "cutcomp assumes that the mirror image or scaling in force holds for the center of G68 too."
-            self.log.tell(Severity.WARNING, "FN-ROTATION", text, block.line, column)
+            self.log.report(Severity.WARNING, "FN-ROTATION", text, block.line, column)
         first, second, _ = self.plane.axes
         center = self._absolute(first, words), self._absolute(second, words)
         self.transform = replace(self.transform, angle=radians(words["R"]), center=center, plane=self.plane)
@@ -504,7 +504,7 @@ class MacroMachine(Machine):
         self.unknown.update(axes)
         if axes:
             text = "The machine's points are not known to cutcomp; the move there is not shown."
-            self.log.tell(Severity.INFO, "HOME", text, block.line, block.column("G"))
+            self.log.report(Severity.INFO, "HOME", text, block.line, block.column("G"))
 
     def _select_system(self, code: int, block: Block) -> None:
         if code in HAAS_SYSTEMS:
@@ -518,7 +518,7 @@ class MacroMachine(Machine):
             return
         if EXTENDED_SYSTEM + number not in self.origin.systems:
             text = f"The offset of {name} {TAKEN_AS_ZERO}"
-            self.log.tell(Severity.WARNING, "OFFSET", text, block.line, block.column("G"))
+            self.log.report(Severity.WARNING, "OFFSET", text, block.line, block.column("G"))
         self.set_origin(replace(self.origin, system=EXTENDED_SYSTEM + number))
 
     def _set_data(self, block: Block) -> None:
@@ -556,7 +556,7 @@ class MacroMachine(Machine):
         self._write_offset(kind, number, block.words["R"] * self.scale / self._radii_in(kind), add=self.incremental)
         if kind not in (_RADIUS_OFFSET_L, _RADIUS_WEAR_L) and not self.separate:
             text = "Lengths and radii are taken to share one memory, so this value is a radius for D too."
-            self.log.tell(Severity.INFO, "FN-SHARED", text, block.line, block.column("L"))
+            self.log.report(Severity.INFO, "FN-SHARED", text, block.line, block.column("L"))
 
     def _radii_in(self, kind: int) -> float:
         """Return how many radii a value of this L is; warn once if it is 2, a diameter."""
@@ -564,7 +564,7 @@ class MacroMachine(Machine):
             return 1.0
         if not self.log.has("HAAS-DIAMETER"):
             text = "D is taken as a diameter (setting 40 DIAMETER). With RADIUS the control uses twice this offset."
-            self.log.tell(Severity.WARNING, "HAAS-DIAMETER", text, self.line, 1)
+            self.log.report(Severity.WARNING, "HAAS-DIAMETER", text, self.line, 1)
         return 2.0
 
     def _write_offset(self, kind: int, number: int, value: float, *, add: bool = False) -> None:
@@ -605,14 +605,14 @@ class MacroMachine(Machine):
         if key in _LAST_WORDS:
             return self.last_words.get(_LAST_WORDS[key], VACANT)
         if key in _CLOCK_VARIABLES or 1000 <= key <= 1135:
-            self._tell_unknown_value(key)
+            self._report_unknown_value(key)
             return 0.0
         if 3000 <= key <= 3999:
             return 0.0
         if key in _POSITION_VARIABLES:
             return self._position_variable(key)
         if 5021 <= key <= 5023 or 5061 <= key <= 5083 or key == _PROGRAM_VARIABLE:
-            self._tell_unknown_value(key)
+            self._report_unknown_value(key)
             return VACANT
         return self._origin_variable(key)
 
@@ -626,9 +626,9 @@ class MacroMachine(Machine):
         point = self.control.tape.last if of_center else self.transform.undone(self.position)
         return from_mm(point[axis] - self.shift[axis], self.unit)
 
-    def _tell_unknown_value(self, key: int) -> None:
+    def _report_unknown_value(self, key: int) -> None:
         text = f"The control knows #{key} only at run time; cutcomp takes nothing or 0."
-        self.log.tell(Severity.WARNING, "FN-SYSTEM", text, self.line, 1)
+        self.log.report(Severity.WARNING, "FN-SYSTEM", text, self.line, 1)
 
     def _refuse_unknown_memory(self, key: int) -> None:
         """Refuse a variable whose meaning depends on the control's model or its parameters."""

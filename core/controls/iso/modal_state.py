@@ -187,7 +187,7 @@ class ModalState:
             text = "G95 needs a known spindle speed. Program S in rpm."
             if self.dialect.feed_needed and not self.surface_speed:
                 self.log.stop("FEED", text, block.line, column)
-            self.log.tell(Severity.WARNING, "FEED", text, block.line, column)
+            self.log.report(Severity.WARNING, "FEED", text, block.line, column)
         return 0.0 if self.surface_speed else self.feed * self.speed
 
     def no_feed(self, block: Block) -> None:
@@ -195,7 +195,7 @@ class ModalState:
         text = "There is no feed; write F before the first move at feed."
         if self.dialect.feed_needed:
             self.log.stop("FEED", text, block.line, block.column("XYZIJ"))
-        self.log.tell(Severity.WARNING, "FEED", text, block.line, block.column("XYZIJ"))
+        self.log.report(Severity.WARNING, "FEED", text, block.line, block.column("XYZIJ"))
 
     def tool_number(self, block: Block) -> int | None:
         """Return the number of a block's tool data or T word, None without either."""
@@ -224,7 +224,7 @@ class ModalState:
         self.tools = self.tools.with_tools(ToolTable.of(tool))
         if data.length is None and data.diameter is None:
             text = "This tool data sets neither length nor diameter; both stay as they are."
-            self.log.tell(Severity.INFO, "TOOL", text, block.line, block.column("T"))
+            self.log.report(Severity.INFO, "TOOL", text, block.line, block.column("T"))
 
     def nothing_compensated(
         self, why: str, line: int, column: int, *, code: str = "RADIUS0", severity: Severity = Severity.WARNING

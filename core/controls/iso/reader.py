@@ -198,7 +198,7 @@ def _pieces(text: str, line: int, log: Log, syntax: Syntax) -> Iterator[Block]:
         else:
             column = start + 1 + len(part) - len(part.lstrip())
             text = f"Text after the end of the block is ignored: {quoted(part)}"
-            log.tell(Severity.INFO, "TEXT", text, line, column)
+            log.report(Severity.INFO, "TEXT", text, line, column)
 
 
 def between_semicolons(line: str) -> Iterator[tuple[int, str]]:
@@ -225,7 +225,7 @@ def _read_closely(
     if not syntax.blanks and block.text.count("(") > 1:
         _without_blanks(block, log)
     if bare.lstrip().startswith("/"):
-        log.tell(Severity.INFO, "SKIP", "Block skip is assumed off, so this block runs.", block.line, 1)
+        log.report(Severity.INFO, "SKIP", "Block skip is assumed off, so this block runs.", block.line, 1)
         bare = bare.replace("/", " ", 1)
     if not bare.strip() or bare.strip() == "%":
         return [block] if block.data else []
@@ -280,7 +280,7 @@ def fill_words(
             (block.g if letter == "G" else block.m).append(code)
             continue
         if letter in words and not (letter in "IJK" and syntax.last_counts and not {650, 660, 661}.isdisjoint(block.g)):
-            _tell_twice(letter, block, log, syntax)
+            _report_twice(letter, block, log, syntax)
         words[letter] = value = float(number)
         if not -LARGEST_COORDINATE < value < LARGEST_COORDINATE:
             text = f"The number of {letter} is too large for any machine."
@@ -288,12 +288,12 @@ def fill_words(
     return block
 
 
-def _tell_twice(letter: str, block: Block, log: Log, syntax: Syntax) -> None:
+def _report_twice(letter: str, block: Block, log: Log, syntax: Syntax) -> None:
     column = [word.column for word in block.written() if word.letter == letter][1]
     if not syntax.last_counts:
         log.stop("TWICE", f"{letter} is written twice in this block; keep one.", block.line, column)
     text = f"{letter} is written twice in this block; the control takes the last one."
-    log.tell(Severity.WARNING, "TWICE", text, block.line, column)
+    log.report(Severity.WARNING, "TWICE", text, block.line, column)
 
 
 def _fault(block: Block, bare: str, log: Log, syntax: Syntax) -> None:

@@ -313,7 +313,7 @@ class CenterPathRecorder:
             why = "the {0}-radius tool cannot enter the corner before this block"
             self._stop_too_large(after, why, abs(offset))
         if joint.center is not None and self.depths:
-            self._tell(Severity.INFO, "INTERPRETED", DEPTH_FIRST, self.depths[0])
+            self._report(Severity.INFO, "INTERPRETED", DEPTH_FIRST, self.depths[0])
         self._finish(before, joint.end)
         if joint.center is not None:
             height, turn = self.record.at(before)[2], -1 if offset > 0.0 else 1
@@ -377,7 +377,7 @@ class CenterPathRecorder:
                 self.record.note(*steps[: path.row])
             self._stop_too_large(steps[path.row], path.text, abs(steps[0].offset))
         for row in path.left_out:
-            self._tell(Severity.WARNING, "M120", LEFT_OUT, steps[row], abs(steps[0].offset))
+            self._report(Severity.WARNING, "M120", LEFT_OUT, steps[row], abs(steps[0].offset))
         along = path.path.part(0, len(path.path) - int(goes_on))
         self._run_along(steps, path, along)
         self.record.note(*(steps[:-1] if goes_on else steps))
@@ -397,8 +397,8 @@ class CenterPathRecorder:
             else:
                 self.record.line(piece.end, height, step)
 
-    def _tell(self, severity: Severity, code: str, text: str, step: ProgrammedStep, *lengths: float) -> None:
-        self.log.tell(severity, code, text, step.element.line, step.element.column, lengths=lengths)
+    def _report(self, severity: Severity, code: str, text: str, step: ProgrammedStep, *lengths: float) -> None:
+        self.log.report(severity, code, text, step.element.line, step.element.column, lengths=lengths)
 
     def _stop(self, code: str, text: str, step: ProgrammedStep, *lengths: float) -> NoReturn:
         self.log.stop(code, text, step.element.line, step.element.column, lengths=lengths)

@@ -66,7 +66,9 @@ def run_klartext(text: bytes, tools: ToolTable, share: float = 1.0, progress: Pr
     tape, stretches = center.record.tape, tuple(center.record.stretches)
     unplaced = frozenset(tape.unplaced)
     spindle = tuple(state.spindle)
-    return ControlRun("klartext", state.unit, tape.moves(), log.closed(), stopped_at, stretches, unplaced, spindle)
+    return ControlRun(
+        "klartext", state.unit, tape.moves(), log.all_findings(), stopped_at, stretches, unplaced, spindle
+    )
 
 
 def _run_blocks(state: State, progress: Progress) -> None:
@@ -81,7 +83,7 @@ def _run_blocks(state: State, progress: Progress) -> None:
             text = f"More than {MAX_REPEATED_BLOCKS} repeated blocks: the run ends here, not judged. Repeat fewer."
             state.stop("LIMIT", text, block)
         if block.skip:
-            state.tell(Severity.INFO, "SKIP", "Block skip is assumed off, so this block runs.", block)
+            state.report(Severity.INFO, "SKIP", "Block skip is assumed off, so this block runs.", block)
         if block.more and not (block.head == "CYCL" and _WITH_VALUES.match(block.body)):
             text = "cutcomp reads a ~, which continues a block, only in CYCL DEF with Q parameters. Write one line."
             state.stop("BEYOND", text, block)
@@ -97,16 +99,16 @@ def _check_end(state: State) -> None:
     last = state.blocks[-1] if state.blocks else Block(1, "", "", 1, skip=False)
     if not state.begun:
         text = "BEGIN PGM is missing; millimeters are assumed. Write BEGIN PGM PART MM as the first block."
-        state.log.tell(Severity.WARNING, "PROGRAM", text, 1, 1)
+        state.log.report(Severity.WARNING, "PROGRAM", text, 1, 1)
     elif not any(block.head == "END" for block in reversed(state.blocks)):
-        state.tell(Severity.WARNING, "PROGRAM", "END PGM is missing; the file may be cut off.", last)
+        state.report(Severity.WARNING, "PROGRAM", "END PGM is missing; the file may be cut off.", last)
     end = next((index for index, block in enumerate(state.blocks) if block.head == "END"), len(state.blocks))
     not_run = next((block for block in state.blocks[end + 1 :] if block.head.isalpha()), None)
     if not_run is not None:
-        state.tell(Severity.WARNING, "NOT_RUN", NOT_RUN_TEXT, not_run)
+        state.report(Severity.WARNING, "NOT_RUN", NOT_RUN_TEXT, not_run)
     if state.applied and state.side:
         text = "The program ends under compensation. Cancel it with an L block with R0, or with DEP."
-        state.tell(Severity.WARNING, "PROGRAM", text, last)
+        state.report(Severity.WARNING, "PROGRAM", text, last)
 
 
 def _labels(blocks: Sequence[Block]) -> Mapping[str, int]:
@@ -184,7 +186,7 @@ def _pass_over(state: State, block: Block, number: int, rest: str) -> None:
     text = f"FN {number} is skipped; it moves nothing."
     if names:
         text = f"FN {number} is skipped: only the control knows what it reads. {quoted(names[0])} has no value here."
-    state.tell(Severity.INFO, "IGNORED", text, block)
+    state.report(Severity.INFO, "IGNORED", text, block)
 
 
 def _condition(state: State, block: Block) -> None:

@@ -77,10 +77,10 @@ def cycle(state: State, block: Block) -> None:
             shift(state, rest)
     elif number in _NEUTRAL and _is_neutral(state, block, number, rest.body):
         text = f"Cycle {number} is skipped: these values turn, mirror and scale nothing."
-        state.tell(Severity.INFO, "IGNORED", text, block)
+        state.report(Severity.INFO, "IGNORED", text, block)
     elif number == 247 and _at_the_start(state):
         text = "Cycle 247 selects the workpiece datum. All positions count from it."
-        state.tell(Severity.INFO, "IGNORED", text, block)
+        state.report(Severity.INFO, "IGNORED", text, block)
     elif number in _TRANSFORM_CYCLES or number >= _FIRST_PROBE:
         text = f"Cycle {number} moves or transforms the contour, which is not supported. Write out its moves."
         state.stop("BEYOND", text, block)
@@ -112,7 +112,7 @@ def _transform(state: State, block: Block, number: int) -> None:
     transform = Transform(state.plane, datum, mirrored, angle)
     if before.neutral and transform.neutral:
         text = f"Cycle {number} is skipped: these values turn, mirror and scale nothing."
-        state.tell(Severity.INFO, "IGNORED", text, block)
+        state.report(Severity.INFO, "IGNORED", text, block)
     state.transformed(transform)
 
 
@@ -135,7 +135,7 @@ def _define(state: State, block: Block, number: int) -> None:
     if number not in _CYCLES_WITHOUT_CALL:
         state.cycle = number
         text = f"Cycle {number} is skipped: it moves nothing before it is called."
-    state.tell(Severity.INFO, "IGNORED", text, block)
+    state.report(Severity.INFO, "IGNORED", text, block)
 
 
 def _take_values(state: State, block: Block) -> None:
@@ -210,7 +210,7 @@ def _pass_over(state: State, block: Block, number: int, height: float | None, *,
         severity, template = Severity.INFO, SKIPPED_TEXT
     state.reported_cycles.add(number)
     if number in _RETURNING_CYCLES and not pattern:
-        state.tell(severity, "CYCLE", template.format(number, "it ends where it began"), block)
+        state.report(severity, "CYCLE", template.format(number, "it ends where it began"), block)
         return
     third = state.plane.axes[2]
     if number in _DRILLING_CYCLES and height is not None:
@@ -221,10 +221,10 @@ def _pass_over(state: State, block: Block, number: int, height: float | None, *,
             state.push(ProgrammedStep(Role.DEPTH, element, 0.0, state.plane))
         state.position = end
         state.now_known({third})
-        state.tell(Severity.INFO, "CYCLE", SKIPPED_TEXT.format(number, "it ends above its hole"), block)
+        state.report(Severity.INFO, "CYCLE", SKIPPED_TEXT.format(number, "it ends above its hole"), block)
         return
     unknown = {third} if number in _DRILLING_CYCLES and not pattern else {0, 1, 2}
     state.known -= unknown
     names = " and ".join("XYZ"[axis] for axis in sorted(unknown))
     text = template.format(number, f"cutcomp takes {names} from the next absolute words")
-    state.tell(severity, "CYCLE", text, block)
+    state.report(severity, "CYCLE", text, block)

@@ -81,7 +81,7 @@ def _check_side(state: State, block: Block, shape: LeadShape) -> None:
         state.stop("HE4", text, block, "R0")
     if shape is LeadShape.LCT and not (state.side or state.applied):
         text = "cutcomp assumes this uncompensated arc is on the same side of the contour as the free point."
-        state.tell(Severity.INFO, "INTERPRETED", text, block)
+        state.report(Severity.INFO, "INTERPRETED", text, block)
 
 
 def _lead(state: State, block: Block, shape: LeadShape, words: Words) -> Lead:

@@ -63,9 +63,9 @@ def _function(state: State, block: Block, name: str, corner: CornerRules) -> Cor
         text = f"{quoted(name)} moves the axes, which is not supported."
         state.stop("BEYOND", text, block, name)
     elif code in _DIFFERENT_ON_CONTROL:
-        state.tell(Severity.WARNING, "M", f"{name} is not supported: {_DIFFERENT_ON_CONTROL[code]}.", block, name)
+        state.report(Severity.WARNING, "M", f"{name} is not supported: {_DIFFERENT_ON_CONTROL[code]}.", block, name)
     elif code not in _IGNORED_FUNCTIONS:
-        state.tell(Severity.INFO, "M", f"cutcomp assumes {quoted(name)} moves nothing.", block, name)
+        state.report(Severity.INFO, "M", f"cutcomp assumes {quoted(name)} moves nothing.", block, name)
     return corner
 
 
@@ -76,9 +76,9 @@ def _look_ahead(state: State, block: Block, words: Words) -> None:
         state.stop("NUMBER", f"LA is a whole number of blocks up to {MAX_LOOK_AHEAD}.", block, "LA")
     if depth and not state.side:
         text = "M120 has no effect in this block. Write it in a block with RL or RR."
-        state.tell(Severity.WARNING, "M", text, block, "M120")
+        state.report(Severity.WARNING, "M", text, block, "M120")
     elif depth:
-        state.tell(Severity.INFO, "INTERPRETED", M120_SKIPS, block, "M120")
+        state.report(Severity.INFO, "INTERPRETED", M120_SKIPS, block, "M120")
     state.ahead = int(depth) if state.side else 0
 
 
@@ -102,5 +102,5 @@ def leaves_workpiece(state: State, block: Block, words: Words) -> bool:
     state.waiting.flush()
     state.last = None
     text = "This move ends where only the machine knows, and is skipped. The next absolute words set the position."
-    state.tell(Severity.WARNING, "MACHINE", text, block)
+    state.report(Severity.WARNING, "MACHINE", text, block)
     return True

@@ -66,7 +66,7 @@ def _line_to(state: State, block: Block, words: Words, end: list[float]) -> None
         state.last = None
         state.push(ProgrammedStep(Role.DEPTH, element, 0.0, state.plane))
         if state.side != state.applied and SIDE_WORDS.keys() & words.keys():
-            state.tell(Severity.INFO, "INTERPRETED", NOT_YET, block)
+            state.report(Severity.INFO, "INTERPRETED", NOT_YET, block)
     elif state.side == state.applied:
         role = Role.CONTOUR if state.side else Role.FREE
         state.push(ProgrammedStep(role, element, state.offset, state.plane, corner_rules, state.feed_at))

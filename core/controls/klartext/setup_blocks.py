@@ -50,7 +50,7 @@ def begin(state: State, block: Block) -> None:
     state.unit = Unit.IN if name_and_unit[2] == "INCH" else Unit.MM
     if state.unit is Unit.IN:
         text = "cutcomp takes F as inches per minute. Some of these controls take tenths of an inch per minute."
-        state.tell(Severity.INFO, "UNIT", text, block)
+        state.report(Severity.INFO, "UNIT", text, block)
 
 
 def end(state: State, block: Block) -> None:
@@ -66,14 +66,14 @@ def ignored(state: State, block: Block) -> None:
 
 
 def _skip(state: State, block: Block, name: str) -> None:
-    state.tell(Severity.INFO, "IGNORED", f"{name} moves nothing and is skipped.", block)
+    state.report(Severity.INFO, "IGNORED", f"{name} moves nothing and is skipped.", block)
 
 
 def bracketed(state: State, block: Block) -> None:
     """Skip a line in brackets, a comment in other languages; before BEGIN PGM the bracket may be left open."""
     if state.begun and not block.body.rstrip().endswith(")"):
         unknown(state, block)
-    state.tell(Severity.INFO, "IGNORED", "A line in brackets is skipped as a comment.", block)
+    state.report(Severity.INFO, "IGNORED", "A line in brackets is skipped as a comment.", block)
 
 
 def structure(state: State, block: Block) -> None:
@@ -82,7 +82,7 @@ def structure(state: State, block: Block) -> None:
 
 def text_parameter(state: State, block: Block) -> None:
     """DECLARE STRING and QS: skip texts, as they move nothing."""
-    state.tell(Severity.INFO, "IGNORED", "Text parameters move nothing and are skipped.", block)
+    state.report(Severity.INFO, "IGNORED", "Text parameters move nothing and are skipped.", block)
 
 
 def plane(state: State, block: Block) -> None:
@@ -150,7 +150,7 @@ def _call(state: State, block: Block, name: str, words: Words) -> None:
         return
     if state.applied and not state.side:
         text = "cutcomp assumes that R0 with the tool axis alone cancels compensation where the tool is changed."
-        state.tell(Severity.INFO, "INTERPRETED", text, block)
+        state.report(Severity.INFO, "INTERPRETED", text, block)
         state.waiting.flush()
         state.waiting.center.finish()
         state.release()
@@ -178,7 +178,7 @@ def _take_radius(state: State, block: Block, delta: float) -> None:
         radius = listed.diameter_mm(state.unit) / 2.0
         if defined is not None and abs(radius - defined) > 0.0:
             text = "cutcomp takes radius {0} from the tool table, not radius {1} from TOOL DEF."
-            state.tell(Severity.INFO, "TOOL", text, block, "", radius, defined)
+            state.report(Severity.INFO, "TOOL", text, block, "", radius, defined)
     elif state.tool == "0":
         radius = 0.0
     else:
@@ -187,7 +187,7 @@ def _take_radius(state: State, block: Block, delta: float) -> None:
     if state.radius is not None:
         if delta and state.radius > 0.0:
             text = "The tool radius is {0} with DR. It is judged as this wide."
-            state.tell(Severity.INFO, "TOOL", text, block, "DR", state.radius)
+            state.report(Severity.INFO, "TOOL", text, block, "DR", state.radius)
         state.parameters["Q108"] = state.radius / to_mm(1.0, state.unit)
 
 

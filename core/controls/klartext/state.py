@@ -109,9 +109,9 @@ class State:
         """Stop the control at a word of the block, or at its head."""
         self.log.stop(code, text, block.line, block.column_of(name), lengths=lengths)
 
-    def tell(self, severity: Severity, code: str, text: str, block: Block, name: str = "", *lengths: float) -> None:
+    def report(self, severity: Severity, code: str, text: str, block: Block, name: str = "", *lengths: float) -> None:
         """Report a finding at a word of the block, or at its head."""
-        self.log.tell(severity, code, text, block.line, block.column_of(name), lengths=lengths)
+        self.log.report(severity, code, text, block.line, block.column_of(name), lengths=lengths)
 
     def words(self, block: Block, allowed: frozenset[str], pattern: Pattern[str] = WORD) -> Words:
         """Return the block's words, all of them allowed and none twice; M words have their numbers in their names."""
@@ -122,11 +122,11 @@ class State:
                 name, number = "R0", ""
             if name in EMPTY_WORDS and not number and not junk and self._is_empty(name, allowed):
                 if not self.reported_empty:
-                    self.tell(Severity.INFO, "INTERPRETED", EMPTY_WORD_TEXT.format(name=name), block, name)
+                    self.report(Severity.INFO, "INTERPRETED", EMPTY_WORD_TEXT.format(name=name), block, name)
                 self.reported_empty = True
                 continue
             if name not in allowed and name in ROTARY_AXES and number and self.value(number, block, name) == 0.0:
-                self.tell(Severity.INFO, "AXIS", "Rotary axes at 0 tilt nothing and are skipped.", block, name)
+                self.report(Severity.INFO, "AXIS", "Rotary axes at 0 tilt nothing and are skipped.", block, name)
                 continue
             if name not in allowed:
                 self._unknown(block, name or junk, number)
@@ -267,14 +267,14 @@ class State:
             return
         if not feed:
             text = "This move has no feed: the control stops here. Write F or FMAX."
-            self.tell(Severity.WARNING, "FEED", text, block)
+            self.report(Severity.WARNING, "FEED", text, block)
         if len(self.known) < 3 and not self.known.issuperset(self.plane.axes[:2]):
             self.known.update(self.plane.axes[:2])
             text = (
                 "Where the tool stands is not known here; cutcomp takes its last known place, or 0 at the beginning of "
                 "the program. Write an L block with both axes before."
             )
-            self.tell(Severity.WARNING, "POSITION", text, block)
+            self.report(Severity.WARNING, "POSITION", text, block)
 
     def apply(self, block: Block) -> None:
         """Apply RL or RR from here on, at the radius of the tool in the spindle."""
@@ -291,9 +291,9 @@ class State:
             self.log.stop("TOOL", text, block.line, column, tool=tool_id(self.tool or "1"))
         if self.radius < 0.0:
             text = "Tool radius {0} with its deltas is negative: the tool runs on the other side of the contour."
-            self.tell(Severity.WARNING, "TOOL", text, block, "", self.radius)
+            self.report(Severity.WARNING, "TOOL", text, block, "", self.radius)
         elif not self.radius:
-            self.tell(Severity.WARNING, "TOOL", "Tool radius 0: the center runs on the contour.", block)
+            self.report(Severity.WARNING, "TOOL", "Tool radius 0: the center runs on the contour.", block)
         self.applied, self.offset = self.side, self.side * self.radius * self.share
 
     def _take_only_tool(self, block: Block) -> None:
@@ -302,7 +302,7 @@ class State:
             (tool,) = self.tools.tools.values()
             self.tool, self.radius = str(tool.number), tool.diameter_mm(self.unit) / 2.0
             text = f"No TOOL CALL before this block: cutcomp takes tool {tool.number}, the only one given."
-            self.tell(Severity.INFO, "TOOL", text, block)
+            self.report(Severity.INFO, "TOOL", text, block)
 
     def release(self) -> None:
         """Turn compensation off."""

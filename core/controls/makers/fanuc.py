@@ -188,7 +188,7 @@ class Fanuc(VectorQueue, Control):
             text = (
                 f"D{number} is not in the tool table; cutcomp takes it for tool {tool}, as shared offset memories do."
             )
-            self.log.tell(Severity.INFO, "D-AS-T", text, line, column)
+            self.log.report(Severity.INFO, "D-AS-T", text, line, column)
         if radius is None:
             text = f"Offset {number} is not in the tool table. Enter its tool or write another D."
             self.log.stop("PS0030", text, line, column, tool=number)
@@ -211,7 +211,7 @@ class Fanuc(VectorQueue, Control):
                 self.log.stop(self.alarms.no_meeting, text, block.line, block.side_column())
         elif self._moves_in_plane(block):
             text = "G41 or G42 is in force already; cutcomp assumes that it has no effect in a block that moves."
-            self.log.tell(Severity.INFO, "FN-G2", text, block.line, block.side_column())
+            self.log.report(Severity.INFO, "FN-G2", text, block.line, block.side_column())
         else:
             self.end_square()
 
@@ -220,7 +220,7 @@ class Fanuc(VectorQueue, Control):
         self._read_radius(block.line, block.column("DG"))
         if self.coming:
             self.in_plane = True
-            self._tell_parameters(block.line)
+            self._report_parameters(block.line)
             self.start_up(self._standing_element(block))
 
     def _standing_element(self, block: Block) -> Element:
@@ -306,7 +306,7 @@ class Fanuc(VectorQueue, Control):
             self.warned_of_zero = True
             super().travel(element)
             return
-        self._tell_parameters(element.line)
+        self._report_parameters(element.line)
         if self.machine.start_unknown:
             self._start_from_the_machine(element.line)
         self.start_up(element)
@@ -317,7 +317,7 @@ class Fanuc(VectorQueue, Control):
         if not self.vector_rules.type_a:
             self.log.stop("FN-WHERE", f"{text} Write a rapid to a point before it.", line, 1)
         text = f"{text} What it cuts on its way is not judged. Write a rapid to a point before it."
-        self.log.tell(Severity.WARNING, "FN-WHERE", text, line, 1)
+        self.log.report(Severity.WARNING, "FN-WHERE", text, line, 1)
 
     def _in_place(self, element: Element) -> None:
         """Run a move across the plane, or one of no length."""
@@ -329,9 +329,9 @@ class Fanuc(VectorQueue, Control):
         self.too_many = self.too_many or element.start_height == element.end_height
         self.across(element)
 
-    def _tell_parameters(self, line: int) -> None:
+    def _report_parameters(self, line: int) -> None:
         if not self.log.has("FN-PARAM"):
-            self.log.tell(Severity.INFO, "FN-PARAM", self.assumed_parameters(), line, 1)
+            self.log.report(Severity.INFO, "FN-PARAM", self.assumed_parameters(), line, 1)
 
     def assumed_parameters(self) -> str:
         """Return the sentence about what the machine builder or the shop sets, and what cutcomp assumes."""
@@ -365,7 +365,7 @@ class Fanuc(VectorQueue, Control):
         text += remedy
         if self.calls_counted:
             text += " Some controls count M98 and M99 as such blocks, as here."
-        self.log.tell(Severity.WARNING, "FN-N2", text, block.line, 1)
+        self.log.report(Severity.WARNING, "FN-N2", text, block.line, 1)
         self.end_square()
 
     def _leave_for_a_while(self, block: Block) -> None:
@@ -377,7 +377,7 @@ class Fanuc(VectorQueue, Control):
             return
         what = "The move to the machine's point" if away else "The new origin"
         text = f"{what} turns compensation off for a while; the next move in the plane starts it again."
-        self.log.tell(Severity.WARNING, "FN-G5", text, block.line, block.column("G"))
+        self.log.report(Severity.WARNING, "FN-G5", text, block.line, block.column("G"))
         if away:
             self.end_square()
         else:
@@ -397,7 +397,7 @@ class Fanuc(VectorQueue, Control):
     def left_open(self, line: int) -> None:
         """Report a program that ends under compensation."""
         text = "The program ends under compensation. Write G40 and a move away from the part."
-        self.log.tell(Severity.WARNING, "FN-OPEN", text, line, 1)
+        self.log.report(Severity.WARNING, "FN-OPEN", text, line, 1)
 
 
 VECTOR_RULES: Final[Mapping[str, VectorRules]] = {

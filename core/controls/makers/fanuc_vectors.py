@@ -178,7 +178,7 @@ class VectorQueue(Recorder):
         vectors = [self.here]
         if element.turn:
             text = "The arc after a square end begins with a straight move to its start. cutcomp assumes this move."
-            self.log.tell(Severity.INFO, "FN-N2-ARC", text, element.line, 1)
+            self.log.report(Severity.INFO, "FN-N2-ARC", text, element.line, 1)
             vectors.append(offset_start(element, self.coming))
         self.before = None
         self.held = Held(element, vectors, self.coming)
@@ -194,7 +194,7 @@ class VectorQueue(Recorder):
             return entry_joint(first, element, start, self.rules.outside, direct=self.vector_rules.type_a)
         if start != offset:
             text = "The side changes here. cutcomp takes the way across from other makers' manuals."
-            self.log.tell(Severity.INFO, "FN-G1", text, element.line, 1)
+            self.log.report(Severity.INFO, "FN-G1", text, element.line, 1)
             return offset_change_joint(first, element, offset, start)
         return self._joined(first, element, offset)
 
@@ -302,7 +302,7 @@ class VectorQueue(Recorder):
             dropped = True
         if dropped:
             text = "Vectors cross here; the control drops some and shortens the way around the corner."
-            self.log.tell(Severity.WARNING, "FN-VECTOR", text, held.element.line, 1)
+            self.log.report(Severity.WARNING, "FN-VECTOR", text, held.element.line, 1)
 
     # square ends and the cancel
 

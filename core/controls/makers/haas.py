@@ -55,7 +55,7 @@ class Haas(fanuc.Fanuc):
         """G41 and G42: start compensation; warn outside G17, where older controls have none."""
         if self.plane is not Plane.XY:
             text = "Older Haas controls compensate in G17 only (alarm 344)."
-            self.log.tell(Severity.WARNING, "H344", text, block.line, block.side_column())
+            self.log.report(Severity.WARNING, "H344", text, block.line, block.side_column())
         super().compensation_on(side, block)
 
     def assumed_parameters(self) -> str:
@@ -73,7 +73,7 @@ class Haas(fanuc.Fanuc):
                 "machine's zero under compensation. cutcomp assumes that it does."
             )
             if not self.log.has("HAAS-STOP"):
-                self.log.tell(Severity.WARNING, "HAAS-STOP", text, block.line, 1)
+                self.log.report(Severity.WARNING, "HAAS-STOP", text, block.line, 1)
             return
         text = (
             f"More than {BLOCKS_READ - 2} blocks without movement in the plane stand before the next move. Remove some."

@@ -154,7 +154,7 @@ class LinuxCnc(OneMoveQueue, Control):
                 self.log.stop("BEYOND", text, block.line, column)
             if code >= 1000:
                 text = f"What M{code / 10:g} does is set up on the machine; cutcomp takes it as moving nothing."
-                self.log.tell(Severity.INFO, "M", text, block.line, column)
+                self.log.report(Severity.INFO, "M", text, block.line, column)
 
     def _other_words(self, block: Block) -> None:
         """Check that M codes exist, that words have the code they need, and that the table has the tool of an H."""
@@ -221,7 +221,7 @@ class LinuxCnc(OneMoveQueue, Control):
         """Stop the run at what compensation refuses; return False for G92.1 to G92.3, which then do nothing."""
         if code in _SHIFT_CANCEL_CODES:
             text = f"The control ignores G{code / 10:g} under compensation; write G40 before it."
-            self.log.tell(Severity.WARNING, "N-OFFSETS", text, block.line, block.column("G", code))
+            self.log.report(Severity.WARNING, "N-OFFSETS", text, block.line, block.column("G", code))
             return False
         if code in REFUSED_UNDER_COMPENSATION or (code == _G10 and self._sets_system_in_force(block)):
             rule, what = REFUSED_UNDER_COMPENSATION.get(code, ("N-OFFSETS", "changes the origin"))

@@ -104,10 +104,10 @@ class NineSeries(ElementQueue, Control):
                 text = (
                     f"M{code // 10} turns the alarms for backwards moves and crossing vectors {'on' if on else 'off'}."
                 )
-                self.log.tell(Severity.INFO, "R11", text, block.line, block.column("M", code))
+                self.log.report(Severity.INFO, "R11", text, block.line, block.column("M", code))
         if self.active and not {0, 10}.isdisjoint(block.m):
             text = "Moves by hand or MDI at this stop are not compensated; compensation starts anew after them."
-            self.log.tell(Severity.INFO, "R6", text, block.line, block.column("M"))
+            self.log.report(Severity.INFO, "R6", text, block.line, block.column("M"))
         if self.active and not _OFFSET_CHANGE_CODES.isdisjoint(block.g):
             self._interrupt(block)
         if self.active and not _MACHINE_POSITION_CODES.isdisjoint(block.g):
@@ -121,7 +121,7 @@ class NineSeries(ElementQueue, Control):
         self.number = number = whole_word(block, "D", self.log, "NUMBER", "D is an offset number, a whole number.")
         if number == 0 and (self.active or not COMPENSATION_CODES.isdisjoint(block.g)):
             text = "D0 does not cancel compensation, it goes on with radius 0; write G40 to cancel."
-            self.log.tell(Severity.WARNING, "R3", text, block.line, block.column("D"))
+            self.log.report(Severity.WARNING, "R3", text, block.line, block.column("D"))
         if (
             self.active
             and self.exit_block is None
@@ -155,11 +155,11 @@ class NineSeries(ElementQueue, Control):
         else:
             self.change_stretch(self.coming, 1 + len(self.standing), joint.moves)
 
-    def _tell_assumed(self, rule: str, text: str, line: int) -> None:
+    def _report_assumed(self, rule: str, text: str, line: int) -> None:
         """Report once that the path depends on a value that the machine builder sets."""
         if not self.log.has(rule):
             words = f"This depends on a value the machine builder sets (first at this line): {text}"
-            self.log.tell(Severity.INFO, rule, words, line, 1)
+            self.log.report(Severity.INFO, rule, words, line, 1)
 
     def compensation_on(self, side: Side, block: Block) -> None:
         """G41 and G42: start compensation or change the side."""
@@ -196,7 +196,7 @@ class NineSeries(ElementQueue, Control):
             f"More than {NON_MOTION} blocks without motion (an assumed limit, the machine builder sets it): the move "
             "ends square and may overcut. Remove some of these blocks."
         )
-        self.log.tell(Severity.WARNING, "R5", text, block.line, 1)
+        self.log.report(Severity.WARNING, "R5", text, block.line, 1)
         self.release_at_end()
         self.entering = True
 
@@ -219,7 +219,7 @@ class NineSeries(ElementQueue, Control):
         if self.held is None or self.exit_block is not None:
             what = "start" if self.exit_block is None else "end"
             text = f"Compensation will {what} at the next move in the plane, not at this one."
-            self.log.tell(Severity.INFO, "R12", text, element.line, 1)
+            self.log.report(Severity.INFO, "R12", text, element.line, 1)
         if self.held is None:
             self.note(element)
             self.straight(element, self.here)
@@ -250,13 +250,13 @@ class NineSeries(ElementQueue, Control):
             self._without_offset(first)  # up to here a D may come in a block of its own
             self.entering = False
             self.offset = self.coming
-            self._tell_type_b(first, second)
+            self._report_type_b(first, second)
             joint = entry_joint(first, second, self.coming, self.rules.outside, direct=self.type_a)
             self._continue_stretch(joint)
             return self._with_notice(joint, second)
         if self.coming != self.offset:
             text = "The side or the radius changes at this line. cutcomp assumes the moves across; the manual has none."
-            self.log.tell(Severity.INFO, "CHANGE", text, second.line, 1)
+            self.log.report(Severity.INFO, "CHANGE", text, second.line, 1)
             joint = offset_change_joint(first, second, self.offset, self.coming)
             self._continue_stretch(joint)
             return joint
@@ -269,13 +269,13 @@ class NineSeries(ElementQueue, Control):
         """Return the joint, and report that its generated blocks may have any length."""
         if joint.through or joint.center is not None or joint.end != joint.start:
             text = "cutcomp takes the least length of a generated block (AMP) as 0; the control drops a shorter one."
-            self._tell_assumed("AMP", text, element.line)
+            self._report_assumed("AMP", text, element.line)
         return joint
 
-    def _tell_type_b(self, first: Element, second: Element) -> None:
+    def _report_type_b(self, first: Element, second: Element) -> None:
         if not self.type_a and inward_turn(first, second, self.offset) < 0.0:
             text = "cutcomp takes the generated blocks of a type B entry from figures; the manual's text lacks them."
-            self.log.tell(Severity.INFO, "TYPE-B", text, first.line, 1)
+            self.log.report(Severity.INFO, "TYPE-B", text, first.line, 1)
 
     def _missed(self, first: Element, second: Element) -> Joint:
         """Return the joint of an inside corner whose offsets do not meet: it is tangent, or an alarm."""
@@ -298,14 +298,14 @@ class NineSeries(ElementQueue, Control):
     def _interference(self, rule: str, text: str, line: int) -> None:
         if self.checks:
             self.log.stop(rule, f"{text} Use a smaller cutter.", line, 1)
-        self.log.tell(Severity.WARNING, rule, f"{text} The alarm is switched off by M800.", line, 1)
+        self.log.report(Severity.WARNING, rule, f"{text} The alarm is switched off by M800.", line, 1)
 
     def feed_of(self, element: Element) -> float:
         """Return the feed of the center: inside an arc the surface keeps the programmed feed, outside the center."""
         if not element.turn or element.turn * self.offset <= 0.0:
             return element.feed
         text = "cutcomp takes the least feed inside arcs (MFR) as 0; the control may feed faster."
-        self._tell_assumed("MFR", text, element.line)
+        self._report_assumed("MFR", text, element.line)
         return element.feed * offset_radius(element, self.offset) / element.radius
 
     def _circular_exit(self, line: int) -> None:
@@ -341,7 +341,7 @@ class NineSeries(ElementQueue, Control):
     def _interrupt(self, block: Block) -> None:
         """At a change of origin, make the last move an exit move and the next one an entry move."""
         text = "The origin changes under compensation: the last move leaves it and the next one enters it again."
-        self.log.tell(Severity.WARNING, "R7", text, block.line, block.column("G"))
+        self.log.report(Severity.WARNING, "R7", text, block.line, block.column("G"))
         before, last, standing = self.before, self.held, self.standing
         if last is None:
             return

@@ -91,7 +91,7 @@ class RosettaCnc(Control):
     def _nose(self, orientation: int, block: Block, column: int) -> None:
         if orientation not in (0, 9):
             text = "The moves are those of the tool nose center; cutcomp does not shift them by the orientation."
-            self.log.tell(Severity.WARNING, "ORIENTATION", text, block.line, column)
+            self.log.report(Severity.WARNING, "ORIENTATION", text, block.line, column)
 
     def _table_radius(self, block: Block) -> float:
         machine, log = self.machine, self.log
@@ -134,7 +134,7 @@ class NormalEntry(OneMoveQueue, RosettaCnc):
         """G41, G42, G41.1 and G42.1: turn compensation on."""
         self.turn_on(self.asked_offset(side, block))
         text = "The entry follows LinuxCNC: square to its own move. cutcomp assumes this; the manual does not say."
-        self.log.tell(Severity.INFO, "ENTRY", text, block.line, block.side_column())
+        self.log.report(Severity.INFO, "ENTRY", text, block.line, block.side_column())
 
     def compensation_off(self, block: Block) -> None:
         """G40: turn compensation off."""

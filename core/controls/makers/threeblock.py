@@ -77,7 +77,7 @@ class ThreeBlock(ElementQueue, Control):
         self._decimals(block)
         if self.machine.incremental and not {"I", "J"}.isdisjoint(block.words):
             text = "Under G91 cutcomp counts the center from the arc's start; the manual does not say."
-            self.log.tell(Severity.INFO, "G91-CENTER", text, block.line, block.column("IJ"))
+            self.log.report(Severity.INFO, "G91-CENTER", text, block.line, block.column("IJ"))
         # D in a block with G41 or G42 may name the tool that is called, as on other controls
         same_tool = not COMPENSATION_CODES.isdisjoint(block.g) and self.machine.tool in (0, block.words.get("D"))
         if "D" in block.words and not same_tool:
@@ -85,7 +85,7 @@ class ThreeBlock(ElementQueue, Control):
             self.log.stop("CODE", f"{text} {D_AND_H_ANYWHERE}", block.line, block.column("D"))
         if "R" in block.words:
             text = "cutcomp does not know how this control takes R. Use I and J."
-            self.log.tell(Severity.WARNING, "RADIUS", text, block.line, block.column("R"))
+            self.log.report(Severity.WARNING, "RADIUS", text, block.line, block.column("R"))
         if not self.active:
             return
         if block.m:
@@ -99,7 +99,7 @@ class ThreeBlock(ElementQueue, Control):
             self.log.stop("ORIGIN", text, block.line, block.column("G", wrong))
         if 990 in block.g:
             text = "The control drops this G99 under compensation and puts its own between tangent moves."
-            self.log.tell(Severity.INFO, "B15-G99", text, block.line, block.column("G", 990))
+            self.log.report(Severity.INFO, "B15-G99", text, block.line, block.column("G", 990))
 
     def wrong_plane(self, block: Block) -> NoReturn:
         """Stop the run: compensation works in the XY plane only."""
@@ -110,7 +110,7 @@ class ThreeBlock(ElementQueue, Control):
         pointless = _POINTLESS.search(block.text)
         if pointless:
             text = "cutcomp reads a coordinate without a decimal point as whole units. Write the point."
-            self.log.tell(Severity.WARNING, "B22-DECIMAL", text, block.line, block.start + pointless.start() + 1)
+            self.log.report(Severity.WARNING, "B22-DECIMAL", text, block.line, block.start + pointless.start() + 1)
 
     def tool_called(self, number: int, block: Block) -> None:
         """Stop the run at a tool number outside 1 to 24, and at any tool call under compensation."""
@@ -125,7 +125,7 @@ class ThreeBlock(ElementQueue, Control):
         """G45 and the G44 that ends it; G99 does not change the path."""
         if code == 450 and not self.ratio:
             text = "cutcomp assumes that G45 holds until G44; the manual does not say."
-            self.log.tell(Severity.INFO, "G45", text, block.line, block.column("G", 450))
+            self.log.report(Severity.INFO, "G45", text, block.line, block.column("G", 450))
         self.ratio = code == 450 if code in (440, 450) else self.ratio
 
     def compensation_on(self, side: Side, block: Block) -> None:
@@ -153,7 +153,7 @@ class ThreeBlock(ElementQueue, Control):
             text = "G41 and G42 cannot be swapped while compensation is on. Write G40 before."
             self.log.stop("B8-SIDE", text, block.line, column)
         text = "Compensation is on already on this side. cutcomp assumes that is allowed; the manual does not say."
-        self.log.tell(Severity.WARNING, "B8-SIDE", text, block.line, column)
+        self.log.report(Severity.WARNING, "B8-SIDE", text, block.line, column)
 
     def _radius(self, block: Block) -> float:
         """Return half the diameter in force, in millimeters."""
@@ -194,7 +194,7 @@ class ThreeBlock(ElementQueue, Control):
         if element.turn and not fits(element, self.offset):
             text = "The arc radius {0} is not larger than the cutter radius {1}: the cutter gouges without an alarm."
             lengths = (element.radius, abs(self.offset))
-            self.log.tell(Severity.WARNING, "B16-NARROW", text, element.line, 1, lengths=lengths)
+            self.log.report(Severity.WARNING, "B16-NARROW", text, element.line, 1, lengths=lengths)
         self.hold(element)
 
     def _height(self, element: Element) -> None:
@@ -206,7 +206,7 @@ class ThreeBlock(ElementQueue, Control):
             self.log.stop("B12-ZENDS", text, element.line, 1)
         if rises and element.turn:
             text = "Under compensation Z goes with straight moves only. How an arc with Z runs is an assumption."
-            self.log.tell(Severity.WARNING, "B12z-ZARC", text, element.line, 1)
+            self.log.report(Severity.WARNING, "B12z-ZARC", text, element.line, 1)
         if not element.moves and any(rose and not moved for _, rose, moved in self.blocks[-3:-1]):
             text = "Program two blocks with X or Y between two Z-only blocks."
             self.log.stop("B13-ZSEP", text, element.line, 1)
@@ -235,13 +235,13 @@ class ThreeBlock(ElementQueue, Control):
             return Joint(start, start)
         joint = super().joint(first, second)
         if joint.corner is CornerKind.TANGENT:
-            self._tell_g99(second)
+            self._report_g99(second)
         return joint
 
-    def _tell_g99(self, element: Element) -> None:
+    def _report_g99(self, element: Element) -> None:
         if not self.inserted:
             text = "Between tangent moves, first at this line, the control puts its own G99: it does not slow down."
-            self.log.tell(Severity.INFO, "G99", text, element.line, 1)
+            self.log.report(Severity.INFO, "G99", text, element.line, 1)
         self.inserted = True
 
     def backwards(self, element: Element) -> None:
@@ -250,7 +250,7 @@ class ThreeBlock(ElementQueue, Control):
         rule = "B16-NARROW" if narrow else "B17-STEP"
         what = "The feature is narrower than the cutter" if narrow else "The step is smaller than the cutter's radius"
         text = f"{what}: this block runs backwards and gouges without an alarm; use a smaller cutter."
-        self.log.tell(Severity.WARNING, rule, text, element.line, 1)
+        self.log.report(Severity.WARNING, rule, text, element.line, 1)
 
     def release(self, end: Point) -> None:
         """Run the held element to a point; trims at both its ends mean a narrow feature, else it is a step."""
@@ -268,7 +268,7 @@ class ThreeBlock(ElementQueue, Control):
             length = element_sweep(element) * abs(offset_radius(element, self.offset))
         if feed and not element.rapid and length / feed * 60 < SHORTEST_BLOCK_SECONDS:
             text = "This block takes less than a quarter of a second: the control dwells."
-            self.log.tell(Severity.INFO, "B18-SHORT", text, element.line, 1)
+            self.log.report(Severity.INFO, "B18-SHORT", text, element.line, 1)
 
     def feed_of(self, element: Element) -> float:
         """Return the feed; under G45 an arc's feed scales with the radius of the tool's path."""
@@ -304,5 +304,5 @@ class ThreeBlock(ElementQueue, Control):
         if self.active:
             text = "The program ends with compensation on. Write a block with G40. That it needs one is an assumption."
             line = self.blocks[-1][0] if self.blocks else self.turned_on
-            self.log.tell(Severity.ERROR, "B21-NOG40", text, line, 1)
+            self.log.report(Severity.ERROR, "B21-NOG40", text, line, 1)
         self.release_at_end()

@@ -11,38 +11,38 @@ from core.finding import Severity
 def test_a_rule_is_reported_once_for_a_line() -> None:
     log = Log()
     for line in (4, 4, 3):
-        log.tell(Severity.WARNING, "A", "Text.", line, 1)
-    assert [finding.line for finding in log.closed()] == [3, 4]
+        log.report(Severity.WARNING, "A", "Text.", line, 1)
+    assert [finding.line for finding in log.all_findings()] == [3, 4]
 
 
 def test_a_rule_that_is_broken_everywhere_is_counted() -> None:
     log = Log()
     for line in range(1, MAX_FINDINGS_OF_A_RULE + 51):
-        log.tell(Severity.WARNING, "A", "Text.", line, 1)
-    told = log.closed()
-    assert len(told) == MAX_FINDINGS_OF_A_RULE + 1
-    assert "50 more" in told[-1].text
+        log.report(Severity.WARNING, "A", "Text.", line, 1)
+    findings = log.all_findings()
+    assert len(findings) == MAX_FINDINGS_OF_A_RULE + 1
+    assert "50 more" in findings[-1].text
 
 
 def test_information_that_repeats_itself_buries_nothing_else() -> None:
     log = Log()
     for line in range(1, 51):
-        log.tell(Severity.INFO, "A", "Skipped.", line, 1)
-    log.tell(Severity.INFO, "A", "Another text.", 60, 1)
-    log.tell(Severity.WARNING, "A", "A warning.", 61, 1)
-    told = log.closed()
-    assert [finding.line for finding in told] == [*range(1, MAX_ALIKE + 2), 60, 61]
-    assert told[MAX_ALIKE].text == f"A: {50 - MAX_ALIKE} more lines like these."
+        log.report(Severity.INFO, "A", "Skipped.", line, 1)
+    log.report(Severity.INFO, "A", "Another text.", 60, 1)
+    log.report(Severity.WARNING, "A", "A warning.", 61, 1)
+    findings = log.all_findings()
+    assert [finding.line for finding in findings] == [*range(1, MAX_ALIKE + 2), 60, 61]
+    assert findings[MAX_ALIKE].text == f"A: {50 - MAX_ALIKE} more lines like these."
 
 
 def test_of_information_whose_text_varies_no_more_is_kept_than_of_warnings() -> None:
     log = Log()
     for line in range(1, MAX_FINDINGS_OF_A_RULE + 51):
-        log.tell(Severity.INFO, "A", f"Note {line}.", line, 1)
-    log.tell(Severity.WARNING, "A", "A warning.", 999, 1)
-    told = log.closed()
-    assert len(told) == MAX_FINDINGS_OF_A_RULE + 2
-    assert "50 more" in told[-2].text
+        log.report(Severity.INFO, "A", f"Note {line}.", line, 1)
+    log.report(Severity.WARNING, "A", "A warning.", 999, 1)
+    findings = log.all_findings()
+    assert len(findings) == MAX_FINDINGS_OF_A_RULE + 2
+    assert "50 more" in findings[-2].text
     assert log.has("A")
     assert not log.has("B")
 
