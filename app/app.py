@@ -39,7 +39,7 @@ from core.units import Unit
 if TYPE_CHECKING:
     from textual.command import Provider
 
-    from core.pipeline.checking import Asked
+    from core.pipeline.checking import CheckRequest
 
 MESSAGE_GOES: Final = 0.2
 """Seconds between two checks whether a message has disappeared."""
@@ -89,12 +89,12 @@ class CutcompApp(TransformActions):
         opened: Opened[Any] | None = None,
         settings_file: SettingsFile | None = None,
         home: bool = False,
-        asked: Asked | None = None,
+        check_request: CheckRequest | None = None,
     ) -> None:
         super().__init__(ansi_color=few_colors or None)
         self.surroundings = surroundings or Surroundings()
         self.service = service or DocumentService()
-        self._opened, self._home, self._asked = opened, home, asked
+        self._opened, self._home, self._check_request = opened, home, check_request
         self.drawing: Path | None = None
         self.settings_file = settings_file or SettingsFile()
         self.settings = self.settings_file.held
@@ -183,7 +183,7 @@ class CutcompApp(TransformActions):
         if self._opened is not None:
             document = self._opened.document
             if isinstance(document, NcDocument):
-                self.show_nc(document, self._asked)
+                self.show_nc(document, self._check_request)
             elif document.file.path is not None:
                 self.keep_settings(self.settings.using(document.file.path))
             self.tell_and_ask(self._opened)

@@ -44,7 +44,7 @@ from core.units import Unit
 
 if TYPE_CHECKING:
     from app.nc_proof.screen import ProofScreen
-    from core.pipeline.checking import Asked
+    from core.pipeline.checking import CheckRequest
 
 Result = TypeVar("Result")
 
@@ -333,13 +333,13 @@ class FileActions(DerivationActions):
 
         self.disk.do(close)
 
-    def show_nc(self, document: NcDocument, asked: Asked | None = None) -> None:
-        """Open NC PROOF on a text; `asked` holds the control, tools and unit of the command line."""
+    def show_nc(self, document: NcDocument, check_request: CheckRequest | None = None) -> None:
+        """Open NC PROOF on a text; `check_request` holds the control, tools and unit of the command line."""
         from app.nc_proof.screen import ProofScreen
 
         path, settings = document.file.path, self.settings
         remembered = "" if path is None else settings.tools_of(path)
-        self.push_screen(ProofScreen(document, asked, settings.control, remembered))
+        self.push_screen(ProofScreen(document, check_request, settings.control, remembered))
 
     def show_folder(self, folder: Path, at: Path | None = None) -> None:
         """Open HOME on a folder, with the cursor on the file `at`."""

@@ -20,7 +20,17 @@ from app.documents.paths import printable_path
 from core.controls.control_tools import commented_size
 from core.controls.program_text import lines_of
 from core.controls.registry import choices
-from core.pipeline.checking import Answer, Asked, answer, answer_all, counted, lines, reasons, same_contours, unreadable
+from core.pipeline.checking import (
+    Answer,
+    CheckRequest,
+    answer,
+    answer_all,
+    counted,
+    lines,
+    reasons,
+    same_contours,
+    unreadable,
+)
 from core.units import Unit
 
 JSON_VERSION: Final = 1
@@ -34,15 +44,15 @@ MOST_NAMES: Final = 10
 def check(arguments: list[str]) -> int:
     """Run the command; return 0 for clean, 1 for errors found, 2 for input that cannot be used."""
     options = _parser().parse_args(arguments)
-    asked = _asked(options)
+    request = _request(options)
     paths = list(_programs(options.files))
     if options.contour:
-        return _contours(paths, asked)
+        return _contours(paths, request)
     single = len(paths) == 1 and paths[0] == options.files[0]
-    answers = (_check_file(path, asked) for path in paths)
+    answers = (_check_file(path, request) for path in paths)
     if options.json:
         return _as_json(answers)
-    return _as_text(answers, asked) if single else _as_summary(answers)
+    return _as_text(answers, request) if single else _as_summary(answers)
 
 
 def _parser() -> argparse.ArgumentParser:
@@ -63,9 +73,11 @@ def _parser() -> argparse.ArgumentParser:
     return parser
 
 
-def _asked(options: argparse.Namespace) -> Asked:
+def _request(options: argparse.Namespace) -> CheckRequest:
     every = options.control.strip().lower() == "all"
-    return Asked("all" if every else control_of(options.control), tools_of(options), options.shop, unit_of(options))
+    return CheckRequest(
+        "all" if every else control_of(options.control), tools_of(options), options.shop, unit_of(options)
+    )
 
 
 def _programs(files: list[Path]) -> Iterator[Path]:
@@ -100,15 +112,15 @@ class _Checked:
     text: bytes = b""
 
 
-def _check_file(path: Path, asked: Asked) -> _Checked:
+def _check_file(path: Path, request: CheckRequest) -> _Checked:
     try:
         if path.is_dir():
             raise Unusable(f"{printable_path(path)} is a folder without programs ({' '.join(sorted(NC_SUFFIXES))}).")
         text = bytes_of(path)
     except Unusable as error:
         return _Checked(path, unusable=str(error))
-    asked = replace(asked, library=FolderLibrary(path.parent))
-    answers = answer_all(text, asked) if asked.control == "all" else (answer(text, asked),)
+    request = replace(request, library=FolderLibrary(path.parent))
+    answers = answer_all(text, request) if request.control == "all" else (answer(text, request),)
     return _Checked(path, answers, text=text if any(result.missing for result in answers) else b"")
 
 
@@ -120,12 +132,12 @@ def _status_of(checked: _Checked) -> int:
     return STATUS_FINDINGS if any(result.errors for result in checked.answers) else STATUS_CLEAN
 
 
-def _contours(paths: list[Path], asked: Asked) -> int:
+def _contours(paths: list[Path], request: CheckRequest) -> int:
     """Compare two programs by their contours; return 0 if they describe the same, 1 if not."""
     if len(paths) != 2:
         raise Unusable("--contour compares two files.")
     first, second = (bytes_of(path) for path in paths)
-    same, report = same_contours(first, second, asked)
+    same, report = same_contours(first, second, request)
     print(*report, sep="\n")
     return STATUS_CLEAN if same else STATUS_FINDINGS
 
@@ -143,12 +155,12 @@ def _as_json(answers: Iterator[_Checked]) -> int:
     return status
 
 
-def _as_text(answers: Iterator[_Checked], asked: Asked) -> int:
+def _as_text(answers: Iterator[_Checked], request: CheckRequest) -> int:
     """Print everything about one program, or the table of all controls."""
     status = STATUS_CLEAN
     for checked in answers:
         status = max(status, _status_of(checked))
-        if asked.control == "all" and checked.answers:
+        if request.control == "all" and checked.answers:
             _print_table(checked.answers)
         elif checked.answers:
             print(*lines(checked.answers[0]), sep="\n")

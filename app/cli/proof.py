@@ -13,17 +13,17 @@ def proof(arguments: list[str]) -> int:
     """Run the command; return the exit status."""
     from app.cli.control_options import control_of, tools_of, unit_of
     from app.documents.programs import is_nc
-    from core.pipeline.checking import Asked
+    from core.pipeline.checking import CheckRequest
 
     options = _parser().parse_args(arguments)
     control = "" if options.control is None else control_of(options.control)
-    asked = Asked(control, tools_of(options), shop=False, unit=unit_of(options))
+    request = CheckRequest(control, tools_of(options), shop=False, unit=unit_of(options))
     if options.file.is_file() and not is_nc(options.file):
         raise Unusable(f"{options.file} is a program, not an NC file: cutcomp {options.file} opens it.")
     prepare()
     from app.cli.screens import run
 
-    return run(options.file, asked=asked)
+    return run(options.file, check_request=request)
 
 
 def _parser() -> argparse.ArgumentParser:

@@ -21,32 +21,32 @@ from core.program.file.read import StoreError
 
 if TYPE_CHECKING:
     from app.app import CutcompApp
-    from core.pipeline.checking import Asked
+    from core.pipeline.checking import CheckRequest
 
 
 def run(
     path: Path | None,
     *,
     example: str | None = None,
-    asked: Asked | None = None,
+    check_request: CheckRequest | None = None,
     options: TerminalOptions = NOTHING_ASKED,
 ) -> int:
     """Show the screens on a program, an NC file, a drawing, an example or HOME; return the exit status.
 
-    `asked` holds the control, the tools and the unit of an NC file.
+    `check_request` holds the control, the tools and the unit of an NC file.
     """
     from app.terminal import driver
 
     if reason := "" if in_browser() else driver.refusal(os.environ):
         say(reason)
         return STATUS_UNUSABLE
-    drawing = path if path is not None and asked is None and is_drawing(path) else None
+    drawing = path if path is not None and check_request is None and is_drawing(path) else None
     service = DocumentService()
     try:
         if drawing is not None:
             opened: Opened[Any] | Trouble = service.new()
         else:
-            opened = service.open(path) if asked and path else begin(service, path, example)
+            opened = service.open(path) if check_request and path else begin(service, path, example)
     except StoreError as error:
         say(str(error))
         return STATUS_UNUSABLE
@@ -54,7 +54,7 @@ def run(
         say(opened.text)
         return STATUS_UNUSABLE
     home = path is None and example is None
-    app = made(service, opened, options, asked, home=home)
+    app = make_app(service, opened, options, check_request, home=home)
     app.drawing = drawing
     return guarded(service, app, mouse=options.mouse or app.settings.mouse)
 
@@ -73,8 +73,13 @@ def begin(service: DocumentService, path: Path | None, example: str | None) -> O
     return service.new(offers=True) if path is None else service.open(program_named(path))
 
 
-def made(
-    service: DocumentService, opened: Opened[Any], options: TerminalOptions, asked: Asked | None, *, home: bool
+def make_app(
+    service: DocumentService,
+    opened: Opened[Any],
+    options: TerminalOptions,
+    check_request: CheckRequest | None,
+    *,
+    home: bool,
 ) -> CutcompApp:
     """Return the App on a document, set up for the terminal and with the settings of last time."""
     from app.app import CutcompApp
@@ -105,7 +110,7 @@ def made(
         opened=opened,
         settings_file=SettingsFile(settings_file(), settings),
         home=home,
-        asked=asked,
+        check_request=check_request,
     )
     if browser:
         from app.terminal.browser import BrowserDriver

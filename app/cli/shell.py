@@ -12,7 +12,7 @@ from typing import Final, TypeVar
 
 from core.program.file.read import StoreError
 
-Asked = TypeVar("Asked")
+Options = TypeVar("Options")
 
 STATUS_CLEAN: Final = 0
 STATUS_FINDINGS: Final = 1
@@ -47,13 +47,13 @@ class Unusable(Exception):
     """Arguments or a file that cannot be used; the text says why and what to do."""
 
 
-def reported(command: Callable[[Asked], int]) -> Callable[[Asked], int]:
+def reported(command: Callable[[Options], int]) -> Callable[[Options], int]:
     """Return the command changed to report Unusable and StoreError as a message and return `STATUS_UNUSABLE`."""
 
     @wraps(command)
-    def run(asked: Asked) -> int:
+    def run(options: Options) -> int:
         try:
-            return command(asked)
+            return command(options)
         except (Unusable, StoreError) as error:
             say(str(error))
             return STATUS_UNUSABLE

@@ -13,7 +13,7 @@ from textual.content import Content
 from textual.widgets import OptionList, Static
 from textual.widgets.option_list import Option
 
-from app.nc_proof.runs import Question, compare
+from app.nc_proof.runs import RunRequest, compare
 from app.screens.dialogs import Dialog
 from app.session.work import SECONDS_BEFORE_PROGRESS, Work
 from app.widgets.option_rows import OptionRows
@@ -35,9 +35,9 @@ class CompareControls(Dialog["tuple[str, bool] | None"]):
     BINDINGS: ClassVar[list[BindingType]] = [Binding("space", "dotted", "Draw dotted", show=False)]
     NOTHING: ClassVar[None] = None
 
-    def __init__(self, question: Question) -> None:
+    def __init__(self, request: RunRequest) -> None:
         super().__init__("COMPARE CONTROLS", classes="wide-box")
-        self.asked = question
+        self.request = request
         self.answers: tuple[Answer, ...] = ()
         self._work = Work(self.action_none)
 
@@ -63,7 +63,7 @@ class CompareControls(Dialog["tuple[str, bool] | None"]):
     @work(exclusive=True, group="compare")
     async def _compare(self) -> None:
         with suppress(Stopped):
-            self.answers = await to_thread(compare, self.asked, self._work)
+            self.answers = await to_thread(compare, self.request, self._work)
             self._show_answers()
 
     def _show_answers(self) -> None:

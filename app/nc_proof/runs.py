@@ -17,7 +17,7 @@ if TYPE_CHECKING:
     from core.controls.control_tools import ToolId, ToolTable
     from core.draw.scene import Layer, Scene
     from core.finding import Finding
-    from core.pipeline.checking import Answer, Asked
+    from core.pipeline.checking import Answer, CheckRequest
     from core.pipeline.nc_proof import Proof
 
 RUN_SHARE: Final = 0.5
@@ -37,7 +37,7 @@ _TOOL: Final = re.compile(
 
 
 @dataclass(frozen=True, eq=False, slots=True)
-class Question:
+class RunRequest:
     """A text to run on a control with these tools; equal only to itself."""
 
     text: NcText
@@ -52,7 +52,7 @@ class Question:
 class Result:
     """A control's run of a text as words, moves and a drawing; `judged` once it holds the verdicts."""
 
-    question: Question
+    request: RunRequest
     answer: Answer
     proof: Proof
     scene: Scene
@@ -72,30 +72,32 @@ class RanDotted:
     path: tuple[Layer, ...]
 
 
-def run(question: Question, progress: Progress = silent) -> Result:
+def run(request: RunRequest, progress: Progress = silent) -> Result:
     """Run the program on its control, without the verdicts, which take longer than the run."""
     from core.controls.registry import UnknownControl
     from core.pipeline.nc_proof import run_program
 
-    library = FolderLibrary(question.folder)
-    proof = run_program(question.text.data, question.control, question.tools, question.unit, library, progress)
+    library = FolderLibrary(request.folder)
+    proof = run_program(request.text.data, request.control, request.tools, request.unit, library, progress)
     assert not isinstance(proof, UnknownControl), proof.text
-    return _result(question, proof, judged=False)
+    return _result(request, proof, judged=False)
 
 
 def judge(result: Result, progress: Progress = silent) -> Result:
     """Return the result with the verdicts added."""
     from core.pipeline.nc_proof import with_verdicts
 
-    return _result(result.question, with_verdicts(result.proof, progress), judged=True)
+    return _result(result.request, with_verdicts(result.proof, progress), judged=True)
 
 
 def with_largest_tool(result: Result, progress: Progress = silent) -> Result:
     """Return the result; if the tool is too big, a finding names the largest tool that is clean."""
     from core.pipeline.checking import with_largest_tool as fitted
 
-    question = result.question
-    answer = fitted(result.answer, result.proof.run, question.text.data, _asked(question, question.control), progress)
+    request = result.request
+    answer = fitted(
+        result.answer, result.proof.run, request.text.data, _check_request(request, request.control), progress
+    )
     return replace(result, answer=answer)
 
 
@@ -103,33 +105,35 @@ def run_dotted(main: Result, control: str, progress: Progress = silent) -> RanDo
     """Run and judge the same text on another control; its path lies on the main result's plane."""
     from core.pipeline.nc_proof import dotted_path
 
-    other = replace(main.question, control=control)
+    other = replace(main.request, control=control)
     result = judge(run(other, part(progress, 0.0, RUN_SHARE)), part(progress, RUN_SHARE, 1.0))
     return RanDotted(result, dotted_path(result.proof, main.proof.plane))
 
 
-def _result(question: Question, proof: Proof, *, judged: bool) -> Result:
+def _result(request: RunRequest, proof: Proof, *, judged: bool) -> Result:
     from core.pipeline.checking import answered
     from core.pipeline.nc_proof import fixed_scene
 
-    answer = answered(proof.run, proof.results, question.text.data)
-    return Result(question, answer, proof, fixed_scene(proof), judged)
+    answer = answered(proof.run, proof.results, request.text.data)
+    return Result(request, answer, proof, fixed_scene(proof), judged)
 
 
-def compare(question: Question, progress: Progress = silent) -> tuple[Answer, ...]:
+def compare(request: RunRequest, progress: Progress = silent) -> tuple[Answer, ...]:
     """Return every control's answer to the text."""
     from core.pipeline.checking import answer_all
 
-    return answer_all(question.text.data, _asked(question, "all"), question.control, progress)
+    return answer_all(request.text.data, _check_request(request, "all"), request.control, progress)
 
 
-def _asked(question: Question, control: str) -> Asked:
-    from core.pipeline.checking import Asked
+def _check_request(request: RunRequest, control: str) -> CheckRequest:
+    from core.pipeline.checking import CheckRequest
 
-    library = FolderLibrary(question.folder)
-    asked = Asked(control, question.tools, shop=False, unit=question.unit, library=library, names_options=False)
+    library = FolderLibrary(request.folder)
+    check_request = CheckRequest(
+        control, request.tools, shop=False, unit=request.unit, library=library, names_options=False
+    )
     # the list of all controls has no room for the largest tool
-    return replace(asked, fits=control != "all")
+    return replace(check_request, fits=control != "all")
 
 
 def tools_text(tools: ToolTable) -> str:

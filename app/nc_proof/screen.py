@@ -24,9 +24,9 @@ from app.nc_proof.dialogs import CompareControls
 from app.nc_proof.listing import Listing
 from app.nc_proof.runs import (
     RUN_SHARE,
-    Question,
     RanDotted,
     Result,
+    RunRequest,
     first_tool,
     header_tools,
     judge,
@@ -57,7 +57,7 @@ from core.units import Kind, Unit, Unreadable, parse, sentence
 
 if TYPE_CHECKING:
     from core.draw.view import View
-    from core.pipeline.checking import Answer, Asked
+    from core.pipeline.checking import Answer, CheckRequest
 
 READING_PROMPT: Final = (
     "Enter edits, N and P go from finding to finding, C another control, T a tool's diameter, V compares all controls."
@@ -71,8 +71,8 @@ _NAMED: Final = re.compile(r"\s*([^=]*[^=\s])\s*=(.*)")
 class ProofScreen(BaseScreen):
     """The proof of one NC text.
 
-    The text runs on the control in `asked`, else on the `usual` one if that reads the text.  Its tools are those of
-    the last time, `remembered` as `1=0.5in`; tools in `asked` override them.
+    The text runs on the control in `check_request`, else on the `usual` one if that reads the text.  Its tools are
+    those of the last time, `remembered` as `1=0.5in`; tools in `check_request` override them.
     """
 
     AUTO_FOCUS: ClassVar[str | None] = "#listing"
@@ -110,7 +110,9 @@ class ProofScreen(BaseScreen):
         ("?", "KEYS, HELP"),
     )
 
-    def __init__(self, document: NcDocument, asked: Asked | None = None, usual: str = "", remembered: str = "") -> None:
+    def __init__(
+        self, document: NcDocument, check_request: CheckRequest | None = None, usual: str = "", remembered: str = ""
+    ) -> None:
         super().__init__()
         self.document = document
         text = document.text
@@ -120,12 +122,12 @@ class ProofScreen(BaseScreen):
         """The tools typed for this program, now or in an earlier session."""
         self.header = header_tools(text)
         """The tools that the header of a program posted by cutcomp names."""
-        self.question = Question(text, control, self.header.with_tools(self.given), folder=folder)
+        self.request = RunRequest(text, control, self.header.with_tools(self.given), folder=folder)
         self.tool = first_tool(text)
-        if asked is not None:
-            tools = self.question.tools.with_tools(asked.tools)
-            self.question = Question(text, asked.control or control, tools, asked.unit, folder)
-            self.tool = next(iter(asked.tools.tools), self.tool)
+        if check_request is not None:
+            tools = self.request.tools.with_tools(check_request.tools)
+            self.request = RunRequest(text, check_request.control or control, tools, check_request.unit, folder)
+            self.tool = next(iter(check_request.tools.tools), self.tool)
         self.result: Result | None = None
         self.dotted_control = ""
         """The other control whose path is drawn dotted; empty for none."""
@@ -156,13 +158,13 @@ class ProofScreen(BaseScreen):
         self.query_one(Listing).go_to_row(self.document.row)
         super().on_mount()
         opened = self.notice
-        self._ask(self.question)
+        self._run_request(self.request)
         if opened is not None:
             self.say(opened.text, opened.tone)
         before = "" if opened is None else f"{opened.text.removesuffix('.')}. "
-        if any(tool is self.question.tools.get(number) for number, tool in self.given.tools.items()):
+        if any(tool is self.request.tools.get(number) for number, tool in self.given.tools.items()):
             self.say(f"{before}Its tools are those that you gave it the last time.")
-        elif self.header.tools and self.question.tools.tools == self.header.tools:
+        elif self.header.tools and self.request.tools.tools == self.header.tools:
             self.say(f"{before}Its tools are those that its header names.")
 
     # ---- the text
@@ -179,7 +181,7 @@ class ProofScreen(BaseScreen):
         self.document = document
         self.show_text()
         self.query_one(Listing).go_to_row(document.row)
-        self._ask(replace(self.question, text=document.text))
+        self._run_request(replace(self.request, text=document.text))
 
     def take_lines(self) -> bool:
         """Take what was typed in the listing; return False if the file's encoding cannot hold it."""
@@ -210,7 +212,7 @@ class ProofScreen(BaseScreen):
     def _change(self, text: NcText, row: int) -> None:
         self.document = self.document.edited(text, row)
         self.host.keep_document(self.document)
-        self._ask(replace(self.question, text=text))
+        self._run_request(replace(self.request, text=text))
 
     def take_over(self, action: str, /) -> bool:
         """Undo or redo an edit of the NC text; return False for any other action."""
@@ -292,21 +294,21 @@ class ProofScreen(BaseScreen):
 
     # ---- the control's run
 
-    def _ask(self, question: Question) -> None:
-        self.question, self.stopped = question, False
+    def _run_request(self, request: RunRequest) -> None:
+        self.request, self.stopped = request, False
         # messages about the previous run no longer apply
         self.clear_notice()
-        if self.dotted_control == question.control:
+        if self.dotted_control == request.control:
             self.dotted_control = ""
         self._end_dotted()
         self._show_titles()
-        self._run(question)
+        self._run(request)
 
     @work(exclusive=True, group="proof", description="proof")
-    async def _run(self, question: Question) -> None:
+    async def _run(self, request: RunRequest) -> None:
         with suppress(Stopped):
             with self.host.working(self._run_stopped) as work:
-                result = await to_thread(run, question, part(work, 0.0, RUN_SHARE))
+                result = await to_thread(run, request, part(work, 0.0, RUN_SHARE))
                 self._ran(result)
                 judged = await to_thread(judge, result, part(work, RUN_SHARE, 1.0))
             self._ran(judged)
@@ -323,7 +325,7 @@ class ProofScreen(BaseScreen):
         self.say("Stopped. C chooses the control and runs the program again.", Tone.WARNING)
 
     def _ran(self, result: Result) -> None:
-        if not self.stands or result.question is not self.question:
+        if not self.stands or result.request is not self.request:
             return
         held = self._finding_in_hand()
         self.result = result
@@ -350,7 +352,7 @@ class ProofScreen(BaseScreen):
         with suppress(Stopped), self.host.working(self._dotted_stopped) as work:
             dotted = await to_thread(run_dotted, main, control, work)
             other = dotted.result
-            if self.stands and main.question is self.question and control == self.dotted_control:
+            if self.stands and main.request is self.request and control == self.dotted_control:
                 self.dotted = dotted
                 self._draw()
                 self.say(f"Dotted: {display_name(control)} {other.answer.outcome}. B removes it.")
@@ -385,9 +387,9 @@ class ProofScreen(BaseScreen):
         return Unit.IN if self.result is None else self.result.answer.unit
 
     def _show_titles(self) -> None:
-        tools = "  ".join(map(self._shown_tool, self.question.tools.tools.values()))
+        tools = "  ".join(map(self._shown_tool, self.request.tools.tools.values()))
         dotted = f", dotted {display_name(self.dotted_control)}" if self.dotted_control else ""
-        self.query_one("#proof-control", Label).update(f"{display_name(self.question.control)}{dotted}")
+        self.query_one("#proof-control", Label).update(f"{display_name(self.request.control)}{dotted}")
         # an alarm for want of a tool says so itself, and needs the room
         lacks = self.result is not None and self.result.answer.missing is not None
         self.query_one("#proof-tools", Label).update(f"tools {tools}" if tools else "" if lacks else "tools none given")
@@ -416,7 +418,7 @@ class ProofScreen(BaseScreen):
             text += f", {counted(answer.stretches, 'contour') if answer.stretches else 'no contour'}"
         if not self.result.judged:
             role, text = "$c-warn", "being judged ..."
-        return Content.styled(f"{text}{'' if self.result.question is self.question else ' ...'}", role)
+        return Content.styled(f"{text}{'' if self.result.request is self.request else ' ...'}", role)
 
     def _alarm(self, answer: Answer) -> str:
         """Return the line and the reason of an alarm; empty if there is none, or if a gouge comes before it."""
@@ -540,7 +542,7 @@ class ProofScreen(BaseScreen):
             scene = replace(scene, layers=(*dotted.path, *scene.layers))
             other = dotted.result
             second = self.query_one("#proof-dotted", Drawing)
-            second.heading = f"{display_name(other.question.control)}: {other.answer.outcome}"
+            second.heading = f"{display_name(other.request.control)}: {other.answer.outcome}"
             second.subject = SceneSubject(scene_at_line(other.scene, other.proof, line), self.unit, self.view_of)
         self.set_class(dotted is not None, "-dotted")
         drawing = self.query_one("#proof-drawing", Drawing)
@@ -580,24 +582,24 @@ class ProofScreen(BaseScreen):
     async def action_control(self) -> None:
         """Let the operator choose the control from a list."""
         rows = control_rows(choices())
-        here = self.question.control
+        here = self.request.control
         control = await self.app.push_screen_wait(ChooseLine("CONTROL", rows, here, classes="wide-box"))
         if control and self.take_lines():
             self.host.keep_settings(replace(self.host.settings, control=control))
-            self._ask(replace(self.question, control=control))
+            self._run_request(replace(self.request, control=control))
 
     @work(exclusive=True, group="question")
     async def action_compare(self) -> None:
         """Compare all controls; take the chosen one, or draw its path dotted."""
         if not self.take_lines():
             return
-        chosen = await self.app.push_screen_wait(CompareControls(self.question))
+        chosen = await self.app.push_screen_wait(CompareControls(self.request))
         if chosen is None:
             return
         control, dotted = chosen
         if not dotted:
-            self._ask(replace(self.question, control=control))
-        elif control == self.question.control:
+            self._run_request(replace(self.request, control=control))
+        elif control == self.request.control:
             self.say("The program runs on this control already. Choose another one to be drawn dotted.")
         else:
             self.dotted_control = control
@@ -628,19 +630,19 @@ class ProofScreen(BaseScreen):
         if isinstance(typed, CutterTool):
             self._with_tool(typed)
         elif not isinstance(typed, Unreadable):
-            self._with_tools(self.given.without(typed), self.question.tools.without(typed))
+            self._with_tools(self.given.without(typed), self.request.tools.without(typed))
             self.say(f"Tool {typed} has no diameter any more.")
 
     def _with_tool(self, tool: CutterTool) -> None:
         self.tool, typed = tool.number, ToolTable.of(tool)
-        self._with_tools(self.given.with_tools(typed), self.question.tools.with_tools(typed))
+        self._with_tools(self.given.with_tools(typed), self.request.tools.with_tools(typed))
         self.say(f"Tool {tool.number}: diameter {tool.diameter:g} {tool.unit or self.unit}.")
 
     def _with_tools(self, given: ToolTable, tools: ToolTable) -> None:
         self.given = given
         if (file := self.document.file.path) is not None:
             self.host.keep_settings(self.host.settings.with_tools(file, tools_text(given)))
-        self._ask(replace(self.question, tools=tools))
+        self._run_request(replace(self.request, tools=tools))
 
     # ---- the frame
 

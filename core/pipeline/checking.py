@@ -54,8 +54,8 @@ class State(StrEnum):
 
 
 @dataclass(frozen=True, eq=False, slots=True)
-class Asked:
-    """What is asked of every program: a control's full name or `all`, the tools, and whether the shop's rules apply.
+class CheckRequest:
+    """What is request of every program: a control's full name or `all`, the tools, and whether the shop's rules apply.
 
     `unit` applies if a program names none; None is the one that a control starts in.  `library` finds the programs
     that a control calls from its memory.  With `names_options`, a stop for lack of a tool's size names the option of
@@ -157,24 +157,28 @@ class Answer:
         }
 
 
-def answer(text: bytes, asked: Asked) -> Answer:
+def answer(text: bytes, request: CheckRequest) -> Answer:
     """Return one control's answer."""
-    done = run(text, asked.control, asked.tools, asked.unit, asked.library)
+    done = run(text, request.control, request.tools, request.unit, request.library)
     assert not isinstance(done, UnknownControl), done.text
-    return _complete(_answer(done, judge_run(done), _foreign(done.control, text), shop=asked.shop), done, text, asked)
+    return _complete(
+        _answer(done, judge_run(done), _foreign(done.control, text), shop=request.shop), done, text, request
+    )
 
 
-def _complete(row: Answer, done: ControlRun, text: bytes, asked: Asked) -> Answer:
-    """Return the answer with the largest tool that fits, and with the option that gives a tool its size if asked."""
-    row = with_largest_tool(row, done, text, asked)
-    return _with_remedy(row, tool_option) if asked.names_options else row
+def _complete(row: Answer, done: ControlRun, text: bytes, request: CheckRequest) -> Answer:
+    """Return the answer with the largest tool that fits, and with the option that gives a tool its size if request."""
+    row = with_largest_tool(row, done, text, request)
+    return _with_remedy(row, tool_option) if request.names_options else row
 
 
-def with_largest_tool(row: Answer, done: ControlRun, text: bytes, asked: Asked, progress: Progress = silent) -> Answer:
+def with_largest_tool(
+    row: Answer, done: ControlRun, text: bytes, request: CheckRequest, progress: Progress = silent
+) -> Answer:
     """Return the answer; if a smaller tool would be clean, with the largest such tool at the fault's line."""
-    if not asked.fits or row.state not in (State.ALARM, State.GOUGES):
+    if not request.fits or row.state not in (State.ALARM, State.GOUGES):
         return row
-    fits = largest_tool(text, done, asked.tools, asked.library, asked.unit, progress)
+    fits = largest_tool(text, done, request.tools, request.library, request.unit, progress)
     if fits is None or _is_of_no_use(fits, row, done):
         return row
     fits = replace(fits, line=row.stopped_at or (row.gouge and row.gouge[1]))
@@ -225,17 +229,19 @@ def answered(done: ControlRun, results: tuple[Judged, ...], text: bytes) -> Answ
     return _with_remedy(_answer(done, results, _foreign(done.control, text), shop=False), _tool_key)
 
 
-def answer_all(text: bytes, asked: Asked, reference: str = "", progress: Progress = silent) -> tuple[Answer, ...]:
+def answer_all(
+    text: bytes, request: CheckRequest, reference: str = "", progress: Progress = silent
+) -> tuple[Answer, ...]:
     """Return every control's answer, and where its path leaves that of the `reference`, which comes first.
 
     Without a reference, or if it does not run the program, the first control that runs it is the one compared with.
     """
-    asked = replace(asked, unit=asked.unit or Unit.IN)
-    rows = compare(text, asked.tools, asked.unit, asked.library, reference, progress)
-    return tuple(_compared(row, asked, text) for row in rows)
+    request = replace(request, unit=request.unit or Unit.IN)
+    rows = compare(text, request.tools, request.unit, request.library, reference, progress)
+    return tuple(_compared(row, request, text) for row in rows)
 
 
-def _compared(row: Compared | OtherLanguage, asked: Asked, text: bytes) -> Answer:
+def _compared(row: Compared | OtherLanguage, request: CheckRequest, text: bytes) -> Answer:
     if isinstance(row, OtherLanguage):
         message = f"The program is in another control's language, and its contour is not compared: {row.why}."
         findings = (_language(Severity.INFO, message),)
@@ -244,12 +250,12 @@ def _compared(row: Compared | OtherLanguage, asked: Asked, text: bytes) -> Answe
         return Answer(row.control, Unit.MM, None, findings, None, outcome, comparison=comparison, state=state)
     comparison = _parting(row.parting, row.reference, row.run.unit) if row.parting else ""
     if not row.contour_of:
-        answer_row = _complete(_answer(row.run, row.results, (), shop=asked.shop), row.run, text, asked)
+        answer_row = _complete(_answer(row.run, row.results, (), shop=request.shop), row.run, text, request)
     else:
         reader = display_name(row.contour_of)
         message = f"The program is in another control's language: only its contour was run, as {reader} reads it, with "
         message += "straight leads that cutcomp adds."
-        answer_row = _answer(row.run, row.results, (_language(Severity.INFO, message),), shop=asked.shop)
+        answer_row = _answer(row.run, row.results, (_language(Severity.INFO, message),), shop=request.shop)
         comparison = f"its contour only{'; ' if comparison else ''}{comparison}"
     return replace(answer_row, comparison=comparison, parting=row.parting, reference=row.reference)
 
@@ -424,12 +430,12 @@ def reasons(answers: tuple[Answer, ...]) -> Iterator[str]:
             yield f"{row.name}: {sentence(row.fits, row.unit)}"
 
 
-def same_contours(first: bytes, second: bytes, asked: Asked) -> tuple[bool, tuple[str, ...]]:
+def same_contours(first: bytes, second: bytes, request: CheckRequest) -> tuple[bool, tuple[str, ...]]:
     """Return whether two programs describe the same contours on the same sides, and a sentence about each contour.
 
-    A program in Klartext runs on that control, any other on the one asked for: LinuxCNC for `all` or Klartext.
+    A program in Klartext runs on that control, any other on the one request for: LinuxCNC for `all` or Klartext.
     """
-    first_run, second_run = _read(first, asked), _read(second, asked)
+    first_run, second_run = _read(first, request), _read(second, request)
     pairs = contours(first_run, second_run)
     sentences = [_pair(pair, first_run.unit, second_run.unit) for pair in pairs]
     counts_differ = len(first_run.stretches) != len(second_run.stretches)
@@ -452,9 +458,9 @@ def _stopped(name: str, done: ControlRun) -> str:
     return f"{name} stops at line {done.stopped_at}; what follows is not compared.{reason}{option}"
 
 
-def _read(text: bytes, asked: Asked) -> ControlRun:
-    iso = asked.control if asked.control not in ("all", "klartext") else "linuxcnc"
-    done = run(text, "klartext" if reads("klartext", text) else iso, asked.tools, asked.unit)
+def _read(text: bytes, request: CheckRequest) -> ControlRun:
+    iso = request.control if request.control not in ("all", "klartext") else "linuxcnc"
+    done = run(text, "klartext" if reads("klartext", text) else iso, request.tools, request.unit)
     assert not isinstance(done, UnknownControl), done.text
     return done
 

@@ -20,8 +20,7 @@ from app.documents.programs import example
 from app.file_actions import session_of
 from app.nc_proof.dialogs import CompareControls
 from app.nc_proof.listing import Listing
-from app.nc_proof.runs import Question as Asking
-from app.nc_proof.runs import RanDotted, Result, first_tool, header_tools, likely_control, read_tools, run
+from app.nc_proof.runs import RanDotted, Result, RunRequest, first_tool, header_tools, likely_control, read_tools, run
 from app.nc_proof.screen import ProofScreen, read_tool
 from app.screens.base import OpeningScreen
 from app.screens.dialogs import Question
@@ -33,7 +32,7 @@ from core.controls.control_tools import CutterTool, ToolTable
 from core.controls.write.written_program import Posted
 from core.draw.scene import Style
 from core.finding import Severity
-from core.pipeline.checking import Asked
+from core.pipeline.checking import CheckRequest
 from core.pipeline.derive import derive
 from core.pipeline.nc_proof import cutter_at_line
 from core.pipeline.post import post_control_program
@@ -77,14 +76,14 @@ def drawn(user: Proof, name: str) -> set[Style]:
 
 @asynccontextmanager
 async def at_proof(
-    tmp_path, data: bytes = PROGRAM, asked: Asked | None = None, size: tuple[int, int] = (80, 24)
+    tmp_path, data: bytes = PROGRAM, check_request: CheckRequest | None = None, size: tuple[int, int] = (80, 24)
 ) -> AsyncIterator[Proof]:
     (tmp_path / "p.nc").write_bytes(data)
     service = DocumentService(state=tmp_path / "own")
     opening = service.open(tmp_path / "p.nc")
     assert isinstance(opening, Opened)
     session = session_of(service.new().document)
-    app = CutcompApp(session, surroundings=SURROUNDINGS, service=service, opened=opening, asked=asked)
+    app = CutcompApp(session, surroundings=SURROUNDINGS, service=service, opened=opening, check_request=check_request)
     async with app.run_test(size=size) as pilot:
         user = Proof(app, pilot)
         await user.settle()
@@ -274,7 +273,7 @@ async def test_a_posted_program_opens_with_the_control_and_the_tools_of_its_head
             path.write_bytes(posted.text.encode())
             user.app.open_file(path)
             await user.settle()
-            assert user.proof.question.control == control
+            assert user.proof.request.control == control
             assert "runs" in user.outcome, control
             assert user.app.settings.tools_of(path) == "", control
             if control != "klartext":
@@ -292,7 +291,7 @@ async def test_tools_of_the_last_time_come_before_those_of_the_header(tmp_path):
     posted = post_control_program(derive(load(example("overrun-square"))), name="square", control="fanuc:a")
     assert isinstance(posted, Posted), posted
     async with at_proof(tmp_path, posted.text.encode()) as user:
-        assert user.proof.question.tools.get(1) == CutterTool(1, 0.5, unit=Unit.IN)
+        assert user.proof.request.tools.get(1) == CutterTool(1, 0.5, unit=Unit.IN)
         await with_tool(user, "1=.625")
         await with_tool(user, "2=6mm")
         saved_tools = user.app.settings.tools_of(tmp_path / "p.nc")
@@ -300,8 +299,8 @@ async def test_tools_of_the_last_time_come_before_those_of_the_header(tmp_path):
         await user.press("f8")
         user.app.open_file(tmp_path / "p.nc")
         await user.settle()
-        assert user.proof.question.tools.tools == read_tools(saved_tools).tools
-        assert user.proof.question.tools.get(1) == CutterTool(1, 0.625, unit=Unit.IN)
+        assert user.proof.request.tools.tools == read_tools(saved_tools).tools
+        assert user.proof.request.tools.get(1) == CutterTool(1, 0.625, unit=Unit.IN)
         assert "the last time" in user.prompt
 
 
@@ -311,10 +310,10 @@ def test_damaged_tools_of_the_last_time_are_left_out():
 
 async def test_a_letter_jumps_to_the_control_whose_name_begins_with_it(tmp_path):
     async with at_proof(tmp_path) as user:
-        assert user.proof.question.control == "linuxcnc"
+        assert user.proof.request.control == "linuxcnc"
         for letters, control in (("hh", "haas:a"), ("fanuc:b", "fanuc:b"), ("tx", "threeblock")):
             await user.press("c", *letters, "enter")
-            assert user.proof.question.control == control
+            assert user.proof.request.control == control
         assert user.app.settings.control == "threeblock"
 
 
@@ -340,7 +339,7 @@ async def test_all_controls_are_compared_and_one_can_be_chosen(tmp_path):
         assert not any("On the command line" in prompt for prompt in prompts.values())
         chosen = rows.get_option_at_index(1).id
         await user.press("down", "enter")
-        assert user.proof.question.control == chosen
+        assert user.proof.request.control == chosen
 
 
 async def dot(user: Proof, control: str) -> None:
@@ -384,7 +383,7 @@ async def test_the_dotted_path_follows_text_tool_and_control(tmp_path):
         def dotted_end() -> tuple[str, list[float]]:
             assert user.proof.dotted is not None
             result = user.proof.dotted.result
-            return result.question.control, result.proof.run.moves.points.max(axis=0).round(3).tolist()[:2]
+            return result.request.control, result.proof.run.moves.points.max(axis=0).round(3).tolist()[:2]
 
         assert dotted_end() == ("fanuc:a", [85.725, 76.2])
         await with_tool(user, "1=.25")
@@ -449,16 +448,16 @@ async def test_the_tool_dialog_asks_for_the_tool_that_the_control_lacks(tmp_path
         assert str(trouble.content) == "2 is the number of the tool. For a diameter of 2, type 2=2."
         await user.press("escape")
         await with_tool(user, ".25")
-        assert user.proof.question.tools.get(2) == CutterTool(2, 0.25, unit=Unit.IN)
+        assert user.proof.request.tools.get(2) == CutterTool(2, 0.25, unit=Unit.IN)
         await user.press("t")
         assert "5=.5" in str(user.app.screen.query_one("#loss", Static).content)
         await user.press(*"x", "enter")
         assert "type a number" in str(user.app.screen.query_one("#phrase-trouble", Static).content)
         await user.press("backspace", *".25", "enter")
-        assert user.proof.question.tools.get(5) == CutterTool(5, 0.25, unit=Unit.IN)
+        assert user.proof.request.tools.get(5) == CutterTool(5, 0.25, unit=Unit.IN)
         assert user.prompt == "Tool 5: diameter 0.25 IN."
         await user.press("t", *"5=", "enter")
-        assert list(user.proof.question.tools.tools) == [2]
+        assert list(user.proof.request.tools.tools) == [2]
         assert user.app.settings.tools_of(tmp_path / "p.nc") == "2=0.25in"
 
 
@@ -469,15 +468,15 @@ async def test_a_klartext_tool_gets_its_diameter_by_name(tmp_path):
     )
     async with at_proof(tmp_path, text) as user:
         await with_tool(user, "10")
-        assert user.proof.question.tools.tools == {"ROUGH D10": CutterTool("ROUGH D10", 10.0, unit=Unit.MM)}
+        assert user.proof.request.tools.tools == {"ROUGH D10": CutterTool("ROUGH D10", 10.0, unit=Unit.MM)}
         assert user.prompt == "Tool ROUGH D10: diameter 10 MM."
         assert user.proof.result.answer.stopped_at is None
         saved_tools = user.app.settings.tools_of(tmp_path / "p.nc")
-        assert read_tools(saved_tools).tools == user.proof.question.tools.tools
+        assert read_tools(saved_tools).tools == user.proof.request.tools.tools
         await with_tool(user, "rough d10=12")
-        assert user.proof.question.tools.get("ROUGH D10").diameter == 12.0
+        assert user.proof.request.tools.get("ROUGH D10").diameter == 12.0
         await with_tool(user, "Rough D10=")
-        assert not user.proof.question.tools.tools
+        assert not user.proof.request.tools.tools
         assert user.proof.result.answer.missing == "ROUGH D10"
 
 
@@ -517,9 +516,9 @@ async def test_home_over_an_nc_text_shows_its_folder_and_esc_there_opens_no_empt
 async def test_a_save_while_the_program_runs_keeps_the_run(tmp_path, monkeypatch):
     go_on = Event()
 
-    def late(question: Asking, progress: Progress) -> Result:
+    def late(request: RunRequest, progress: Progress) -> Result:
         assert go_on.wait(20.0)
-        return run(question, progress)
+        return run(request, progress)
 
     async with at_proof(tmp_path) as user:
         await with_tool(user)
@@ -532,7 +531,7 @@ async def test_a_save_while_the_program_runs_keeps_the_run(tmp_path, monkeypatch
         await user.settle()
         assert not user.outcome.endswith("...")
         assert user.proof.result is not None
-        assert user.proof.result.question.text.text(0).endswith("(a)")
+        assert user.proof.result.request.text.text(0).endswith("(a)")
         assert user.app._works == ()
 
 
@@ -554,8 +553,8 @@ def test_an_unreadable_diameter_is_explained_in_a_sentence():
 
 async def test_subprograms_are_found_in_the_folder_of_the_file(tmp_path):
     (tmp_path / "O0007.nc").write_text("O7\nG1 X5. F100.\nM99\n")
-    asked = Asked("fanuc:a", ToolTable(), shop=False, unit=None)
-    async with at_proof(tmp_path, b"%\nO1\nG21 G90 G0 X0 Y0\nM98 P7\nM30\n%\n", asked) as user:
+    check_request = CheckRequest("fanuc:a", ToolTable(), shop=False, unit=None)
+    async with at_proof(tmp_path, b"%\nO1\nG21 G90 G0 X0 Y0\nM98 P7\nM30\n%\n", check_request) as user:
         assert "runs" in user.outcome
         assert user.proof.result is not None
         assert user.proof.result.proof.run.moves.points[-1, 0] == 5.0

@@ -14,7 +14,7 @@ from syrupy.assertion import SnapshotAssertion
 
 from app.app import CutcompApp
 from app.documents.document import FileState, NcDocument
-from core.pipeline.checking import Asked
+from core.pipeline.checking import CheckRequest
 from tests.app.screens.snapshots import NOON, Part, app_on, differing
 from tests.app.screens.test_import_drawing import InlineWorker
 from tests.tool_tables import end_mills
@@ -36,8 +36,8 @@ def drawing(app: CutcompApp) -> None:
 def proof(file: str, control: str, stages: Mapping[str, str]) -> Part:
     """NC PROOF of a file on a control."""
     document = NcDocument.read((DATA / file).read_bytes(), FileState(Path(Path(file).name)))
-    asked = Asked(control, end_mills({1: 0.5}), shop=False, unit=None)
-    return partial(CutcompApp.show_nc, document=document, asked=asked), stages
+    check_request = CheckRequest(control, end_mills({1: 0.5}), shop=False, unit=None)
+    return partial(CutcompApp.show_nc, document=document, check_request=check_request), stages
 
 
 HOME_AND_IMPORT: list[Part] = [(folder, {"home": "down down"}), (drawing, {"import": "down"})]

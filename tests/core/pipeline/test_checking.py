@@ -11,7 +11,7 @@ from core.controls.control_tools import CutterTool, ToolTable
 from core.controls.judging.judged_runs import judge_run
 from core.controls.registry import run
 from core.pipeline.checking import (
-    Asked,
+    CheckRequest,
     answer,
     answer_all,
     answered,
@@ -25,12 +25,12 @@ from core.progress import Stopped
 from core.units import Unit, from_mm
 
 
-def asked(control: str, *tools: CutterTool) -> Asked:
-    return Asked(control, ToolTable.of(*tools), shop=False, unit=None)
+def request_for(control: str, *tools: CutterTool) -> CheckRequest:
+    return CheckRequest(control, ToolTable.of(*tools), shop=False, unit=None)
 
 
 def test_a_missing_diameter_stops_the_run_and_names_the_option_that_gives_it() -> None:
-    row = answer(b"G21 F100.\nG41 D3 G1 X10. Y0\nX20.\nM30\n", asked("fanuc:a"))
+    row = answer(b"G21 F100.\nG41 D3 G1 X10. Y0\nX20.\nM30\n", request_for("fanuc:a"))
     assert row.stopped_at == 2
     assert row.stop is not None
     assert row.stop.text.endswith("On the command line: --tool 3=DIAMETER.")
@@ -39,7 +39,7 @@ def test_a_missing_diameter_stops_the_run_and_names_the_option_that_gives_it() -
 
 def test_a_comparison_of_contours_says_which_program_stops_and_why() -> None:
     whole, stopped = b"G21 F9.\nG41 D1 G1 X9.\nX20.\nG40 X30.\nM30\n", b"G21 F9.\nG41 D2 G1 X9.\nX20.\nM30\n"
-    same, sentences = same_contours(whole, stopped, asked("fanuc:a", CutterTool(1, 5.0)))
+    same, sentences = same_contours(whole, stopped, request_for("fanuc:a", CutterTool(1, 5.0)))
     assert not same
     assert sentences[-1].startswith("The second program stops at line 2; what follows is not compared. ")
     assert sentences[-1].endswith("On the command line: --tool 2=DIAMETER.")
@@ -49,7 +49,7 @@ def test_a_gouge_of_several_passes_at_one_place_is_reported_once() -> None:
     """Each lap of the loop cuts into a wall at the approach."""
     lap = b"G0 X0. Y0.\nG41 D3 G1 X10. Y10.\nX40.\nY40.\nX10.\nY0.\nG40 X0.\n"
     loop = b"G21 F100.\n#1=0\nWHILE [#1 LT %d] DO1\n#1=#1+1\n" + lap + b"END1\nM30\n"
-    once, twice = (answer(loop % times, asked("fanuc:a", CutterTool(3, 10.0))) for times in (1, 2))
+    once, twice = (answer(loop % times, request_for("fanuc:a", CutterTool(3, 10.0))) for times in (1, 2))
     assert (once.stretches, twice.stretches) == (1, 2)
     assert any(finding.code == "GOUGE" for finding in once.findings)
     assert twice.findings == once.findings
@@ -61,7 +61,7 @@ def test_similar_information_on_many_contours_is_reported_a_few_times() -> None:
     hole = lead_in + b"I-10.\nX%d. Y5. R5.\nG40 G1 X%d. Y0\n"
     places = range(0, 400, 40)
     holes = b"".join(hole % (x, x + 5, x + 10, x + 5, x) for x in places)
-    row = answer(b"G21 G90 F100.\n" + holes + b"M30\n", asked("linuxcnc", CutterTool(3, 8.0)))
+    row = answer(b"G21 G90 F100.\n" + holes + b"M30\n", request_for("linuxcnc", CutterTool(3, 8.0)))
     leads = [(finding.line, finding.text) for finding in row.findings if finding.code == "LEADS"]
     assert [line for line, _ in leads] == [4, 10, 16, 22]
     assert leads[-1][1] == "LEADS: 7 more lines like these."
@@ -71,13 +71,13 @@ def test_gouges_that_are_not_listed_are_counted_for_each_contour() -> None:
     """The slots of two combs are narrower than the tool: each comb has more gouges than are listed."""
     teeth = b"".join(b"X%d.\nY%d.\n" % (10 * tooth, 20 if tooth % 2 else 0) for tooth in range(1, 60))
     comb = b"G0 X0. Y-20.\nG41 G1 X0. Y0.\n" + teeth + b"G40 Y-50.\n"
-    row = answer(b"G71 G90 F100.\nT3 M6\n" + comb + comb + b"M30\n", asked("threeblock", CutterTool(3, 12.0)))
+    row = answer(b"G71 G90 F100.\nT3 M6\n" + comb + comb + b"M30\n", request_for("threeblock", CutterTool(3, 12.0)))
     more = [finding.text for finding in row.findings if "more gouges" in finding.text]
     assert len(more) == row.stretches == 2
 
 
 def test_a_canceled_search_for_the_largest_tool_stops() -> None:
-    request = asked("fanuc:a", CutterTool(1, 0.5))
+    request = request_for("fanuc:a", CutterTool(1, 0.5))
     row, finished_run = answer(SLOT, request), run(SLOT, "fanuc:a", request.tools)
     assert isinstance(finished_run, ControlRun)
     assert row.fits is not None
@@ -90,7 +90,7 @@ def test_a_canceled_search_for_the_largest_tool_stops() -> None:
 
 
 def test_a_program_with_its_tool_runs_to_its_end() -> None:
-    row = answer(b"G21 F100.\nG41 D3 G1 X10. Y0\nX20.\nG40 X30.\nM30\n", asked("fanuc:a", CutterTool(3, 10.0)))
+    row = answer(b"G21 F100.\nG41 D3 G1 X10. Y0\nX20.\nG40 X30.\nM30\n", request_for("fanuc:a", CutterTool(3, 10.0)))
     assert (row.stopped_at, row.stop) == (None, None)
 
 
@@ -106,11 +106,11 @@ SLANTING = b"G21 G17 G90 G1 F100.\nX-20. Y0.\nG41 D1 X0.\nX50.\nM8\nM9\nY40.\nX2
 
 @pytest.mark.parametrize("control", ["linuxcnc", "fanuc:a", "haas:a", "allen-bradley:a"])
 def test_the_largest_tool_that_fits_is_named_if_the_tool_is_too_big(control: str) -> None:
-    row = answer(SLOT, asked(control, CutterTool(1, 0.5), CutterTool(2, 0.25)))
+    row = answer(SLOT, request_for(control, CutterTool(1, 0.5), CutterTool(2, 0.25)))
     (finding,) = (finding for finding in row.findings if finding.code == "TOOL_FITS")
     assert finding.text == "Tool 1 is too big; the largest that does not gouge: {0}."
     assert from_mm(finding.lengths[0], Unit.IN) == pytest.approx(0.4, abs=1.1e-4)
-    assert answer(SLOT, asked(control, CutterTool(1, 0.3999))).fits is None
+    assert answer(SLOT, request_for(control, CutterTool(1, 0.3999))).fits is None
 
 
 def test_no_tiny_tool_is_named_for_shallow_gouges_at_nearly_tangent_joints() -> None:
@@ -119,14 +119,14 @@ def test_no_tiny_tool_is_named_for_shallow_gouges_at_nearly_tangent_joints() -> 
     places = [((50 + 1.2 * sin(8 * turn)) * cos(turn), (50 + 1.2 * sin(8 * turn)) * sin(turn)) for turn in turns]
     chords = "".join(f"X{x:.4f} Y{y:.4f}\n" for x, y in places)
     text = f"G21 G90\nT1 M6\nG0 X80 Y-20\nG42 G1 X60 Y-8 F300\n{chords}G40 X80 Y20\nM2\n"
-    row = answer(text.encode(), asked("linuxcnc", CutterTool(1, 10.0)))
+    row = answer(text.encode(), request_for("linuxcnc", CutterTool(1, 10.0)))
     assert row.gouge is not None
     assert 0.0 < row.gouge[0] < 0.01
     assert row.fits is None
 
 
 def test_no_tool_is_named_if_smaller_tools_gouge_too() -> None:
-    row = answer(SLANTING, asked("fanuc:a", CutterTool(1, 10.0)))
+    row = answer(SLANTING, request_for("fanuc:a", CutterTool(1, 10.0)))
     assert row.gouge is not None
     assert row.fits is None
 
@@ -136,14 +136,14 @@ LEADS = "G21 G90 F200.\nT1 M6\nG0 X{start} Y-20.\nG41 D1 G1 X0. Y0.\nY30.\nX40.\
 
 @pytest.mark.parametrize(("start", "end", "y"), [("10.", "0.", "-20."), ("0.", "-20.", "-2.")])
 def test_a_lead_that_alone_gouges_should_be_moved(start: str, end: str, y: str) -> None:
-    row = answer(LEADS.format(start=start, end=end, y=y).encode(), asked("linuxcnc", CutterTool(1, 10.0)))
+    row = answer(LEADS.format(start=start, end=end, y=y).encode(), request_for("linuxcnc", CutterTool(1, 10.0)))
     assert row.gouge is not None
     assert row.fits is not None
     assert row.fits.text.startswith("Only a lead-in or lead-out gouges: move its far end.")
 
 
 def test_the_table_of_all_controls_names_the_largest_tool_for_each() -> None:
-    every = list(reasons(answer_all(SLOT, asked("all", CutterTool(1, 0.5)))))
+    every = list(reasons(answer_all(SLOT, request_for("all", CutterTool(1, 0.5)))))
     assert "fanuc:a: Tool 1 is too big; the largest that does not gouge: 0.4000." in every
     assert any(reason.startswith("fanuc:a and fanuc:b at line 8 (PS0041): ") for reason in every)
 
@@ -151,7 +151,7 @@ def test_the_table_of_all_controls_names_the_largest_tool_for_each() -> None:
 def test_the_largest_tool_is_named_for_a_program_without_a_unit() -> None:
     """Every control assumes inches."""
     without_unit, with_unit = SLOT.replace(b"G20 ", b""), SLOT
-    silent_rows, rows = (answer_all(text, asked("all", CutterTool(1, 0.5))) for text in (without_unit, with_unit))
+    silent_rows, rows = (answer_all(text, request_for("all", CutterTool(1, 0.5))) for text in (without_unit, with_unit))
     fitting = [[row.control for row in each if row.fits is not None] for each in (silent_rows, rows)]
     assert fitting[0] == fitting[1]
     assert fitting[1]
@@ -188,7 +188,7 @@ KLARTEXT = b"0 BEGIN PGM A MM\n1 L X+1 F9\n2 END PGM A MM\n"
     ],
 )
 def test_the_outcome_says_the_worst_in_a_few_words(control: str, text: bytes, outcome: str, moves: int) -> None:
-    row = answer(text, asked(control, CutterTool(1, 10.0)))
+    row = answer(text, request_for(control, CutterTool(1, 10.0)))
     assert (row.outcome_and_warnings, row.move_count) == (outcome, moves)
     assert row.uncompensated is ("nothing compensated" in outcome)
     assert row.errors is any(word in outcome for word in ("nothing to run", "cannot", "gouges", "alarms"))
@@ -215,7 +215,7 @@ ARC = b"G20\nF9.\nG0 X1.\nG3 X2. Y1. I0. J1.\n%sM30\n"
 
 
 def test_the_machine_readable_answer_is_in_program_units() -> None:
-    row = answer(ARC % b"G33 X9.\n", asked("fanuc:a"))
+    row = answer(ARC % b"G33 X9.\n", request_for("fanuc:a"))
     text = "cutcomp does not support G33. Write out the moves that it makes or changes."
     finding = {"rule": "BEYOND", "severity": "error", "line": 5, "column": 1, "text": text, "lengths": []}
     rapid: dict[str, object] = {"type": "line", "mode": "rapid", "y": 0.0, "z": 0.0, "feed": None}
@@ -242,7 +242,7 @@ def test_the_machine_readable_answer_is_in_program_units() -> None:
 
 
 def test_a_file_that_cannot_be_read_has_the_same_keys_as_an_answer() -> None:
-    document, row = unreadable("a.nc", "It is empty."), answer(ARC % b"", asked("linuxcnc")).json()
+    document, row = unreadable("a.nc", "It is empty."), answer(ARC % b"", request_for("linuxcnc")).json()
     assert set(document) == {"file", *row}
     assert document["findings"] == [
         {"rule": "UNREADABLE", "severity": "error", "line": None, "column": None, "text": "It is empty.", "lengths": []}
@@ -252,7 +252,7 @@ def test_a_file_that_cannot_be_read_has_the_same_keys_as_an_answer() -> None:
 def test_a_path_that_leaves_that_of_the_reference_says_from_where_and_how_far() -> None:
     """At the square corner Klartext makes an arc of radius 5; its middle is farthest from the offset lines."""
     text = b"G21 F9.\nG0 X-20. Y-10.\nG41 D1 G1 X0. Y0.\nY30.\nX40.\nG40 X60. Y50.\nM30\n"
-    rows = answer_all(text, asked("all", CutterTool(1, 10.0)), "haas:a")
+    rows = answer_all(text, request_for("all", CutterTool(1, 10.0)), "haas:a")
     row = next(row for row in rows if row.control == "klartext")
     assert row.comparison == "its contour only; differs from haas:a from line 4, by 1.464 at line 4"
     distance = pytest.approx(5 * (1 - sqrt(0.5)))
@@ -261,7 +261,7 @@ def test_a_path_that_leaves_that_of_the_reference_says_from_where_and_how_far() 
 
 
 def test_a_program_without_a_contour_is_not_compared_with_another_language() -> None:
-    (row,) = [row for row in answer_all(b"G21 F9.\nG1 X1.\nM30\n", asked("all")) if row.control == "klartext"]
+    (row,) = [row for row in answer_all(b"G21 F9.\nG1 X1.\nM30\n", request_for("all")) if row.control == "klartext"]
     assert (row.outcome, row.move_count, row.errors) == ("reads another language", 0, False)
     assert row.comparison.startswith("not compared: ")
 
@@ -283,10 +283,10 @@ FIRST = b"G21 F9.\nG41 D1 G1 X9.\nX20.\nY40.\nG40 X30.\nM30\n"
     ],
 )
 def test_two_programs_are_compared_contour_by_contour(second: bytes, sentences: list[str]) -> None:
-    same, found = same_contours(FIRST, second, asked("fanuc:a", CutterTool(1, 5.0)))
+    same, found = same_contours(FIRST, second, request_for("fanuc:a", CutterTool(1, 5.0)))
     assert (same, list(found)) == (second == FIRST, sentences)
 
 
 def test_programs_without_contours_are_not_the_same() -> None:
     text = b"G21 F9.\nG1 X1.\nM30\n"
-    assert same_contours(text, KLARTEXT, asked("all")) == (False, ("Neither program has a compensated contour.",))
+    assert same_contours(text, KLARTEXT, request_for("all")) == (False, ("Neither program has a compensated contour.",))
