@@ -58,7 +58,7 @@ def command(file: Path | None) -> str:
     return shlex.join(words if file is None else [*words, "--", str(file.absolute())])
 
 
-def knows(path: str, secret: str) -> bool:
+def has_secret(path: str, secret: str) -> bool:
     """True if a request's path begins with the secret; the comparison takes constant time."""
     return hmac.compare_digest(path.lstrip("/").partition("/")[0].encode(), secret.encode())
 
@@ -81,29 +81,29 @@ def why_not_served(error: OSError | UnicodeError) -> str:
     return f"{error.strerror or 'the system refuses'}. Choose another --host or --port."
 
 
-def adapted(page: str, served: str, asked: str) -> str:
-    """Return the page with the address that the browser asked for, no fonts from elsewhere, and the focus set.
+def page_for_browser(page: str, served: str, host_header: str) -> str:
+    """Return the page with the address in the browser's Host header, no fonts from elsewhere, and the focus set.
 
     The server writes the address it listens on into the page; a browser that knows the machine by another name would
     connect from one address to the other and be refused, and 0.0.0.0 is no machine's address.
     """
     listening = urlsplit(served).netloc
     page = ELSEWHERE.sub("", page)
-    if _NAME.fullmatch(asked):
-        page = page.replace(f"//{listening}/", f"//{asked}/")
+    if _NAME.fullmatch(host_header):
+        page = page.replace(f"//{listening}/", f"//{host_header}/")
     return page.replace("</body>", f"{FOCUS_SCRIPT}</body>")
 
 
-def welcome(asked: str, origin: str, host: str, port: int) -> bool:
+def from_served_page(host_header: str, origin: str, host: str, port: int) -> bool:
     """True if a connection comes from the served page: its Host and Origin headers have the same address.
 
     If the served address is local, the name must be a local one too, whatever a name server says.
     """
     try:
-        if urlsplit(origin).netloc != asked or not asked:
+        if urlsplit(origin).netloc != host_header or not host_header:
             return False
-        name, asked_port = urlsplit(f"//{asked}").hostname, urlsplit(f"//{asked}").port or 80
+        name, host_port = urlsplit(f"//{host_header}").hostname, urlsplit(f"//{host_header}").port or 80
     except ValueError:
         # an address that cannot be read
         return False
-    return asked_port == port and name is not None and (not is_local(host) or name in LOCAL_HOSTS)
+    return host_port == port and name is not None and (not is_local(host) or name in LOCAL_HOSTS)

@@ -17,7 +17,7 @@ from aiohttp.typedefs import Handler, Middleware
 from textual_serve.server import Server
 
 from app.cli.lifeline import GRACE_SECONDS
-from app.cli.web import adapted, address, command, knows, welcome
+from app.cli.web import address, command, from_served_page, has_secret, page_for_browser
 from app.cli.web_children import Service
 
 MAX_PAGES: Final = 8
@@ -77,7 +77,7 @@ class ScreenServer(Server):
     def _guarded(self) -> Middleware:
         @web.middleware
         async def guard(request: web.Request, handler: Handler) -> web.StreamResponse:
-            if not knows(request.path, self.secret):
+            if not has_secret(request.path, self.secret):
                 raise web.HTTPNotFound
             return await handler(request)
 
@@ -96,13 +96,13 @@ class ScreenServer(Server):
             raise web.HTTPServiceUnavailable(text=FULL_TEXT)
         answer = await super().handle_index(request)
         assert isinstance(answer, web.Response)
-        answer.text = adapted(answer.text or "", self.public_url, request.headers.get("Host", ""))
+        answer.text = page_for_browser(answer.text or "", self.public_url, request.headers.get("Host", ""))
         return answer
 
     async def handle_websocket(self, request: web.Request) -> web.WebSocketResponse:
         """Serve a page's connection; refuse it to pages from elsewhere."""
         headers = request.headers
-        if not welcome(headers.get("Host", ""), headers.get("Origin", ""), self.host, self.port):
+        if not from_served_page(headers.get("Host", ""), headers.get("Origin", ""), self.host, self.port):
             raise web.HTTPForbidden
         return await self.pages.connect(request)
 

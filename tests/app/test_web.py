@@ -10,7 +10,7 @@ from pathlib import Path
 import pytest
 
 from app.__main__ import main
-from app.cli.web import adapted, address, command, is_local, knows, refusal, welcome
+from app.cli.web import address, command, from_served_page, has_secret, is_local, page_for_browser, refusal
 
 
 @pytest.mark.parametrize("host", ["127.0.0.1", "127.8.9.1", "::1", "localhost", "LOCALHOST"])
@@ -88,7 +88,7 @@ def test_a_file_name_is_one_shell_word_and_not_an_option() -> None:
     ],
 )
 def test_only_the_served_page_may_connect(host: str, origin: str, let_in: bool) -> None:
-    assert welcome(host, origin, "127.0.0.1", 8000) is let_in
+    assert from_served_page(host, origin, "127.0.0.1", 8000) is let_in
 
 
 def test_the_printed_address_can_be_typed_into_a_browser() -> None:
@@ -105,7 +105,7 @@ PAGE = """<link
 
 @pytest.mark.parametrize("host", ["shop-pc:8000", "192.168.1.5:8000", "[::1]:8000", "localhost:8000"])
 def test_the_page_connects_to_the_address_that_was_requested(host: str) -> None:
-    page = adapted(PAGE, "http://0.0.0.0:8000", host)
+    page = page_for_browser(PAGE, "http://0.0.0.0:8000", host)
     assert f'"http://{host}/static/js/textual.js"' in page
     assert f'"ws://{host}/ws"' in page
     assert "0.0.0.0" not in page
@@ -113,17 +113,17 @@ def test_the_page_connects_to_the_address_that_was_requested(host: str) -> None:
 
 @pytest.mark.parametrize("host", ["", '"><script>', "a b"])
 def test_an_invalid_host_does_not_get_into_the_page(host: str) -> None:
-    assert "http://0.0.0.0:8000/static" in adapted(PAGE, "http://0.0.0.0:8000", host)
+    assert "http://0.0.0.0:8000/static" in page_for_browser(PAGE, "http://0.0.0.0:8000", host)
 
 
 def test_the_page_loads_no_fonts_from_another_machine() -> None:
-    assert "fonts" not in adapted(PAGE, "http://0.0.0.0:8000", "shop-pc:8000")
+    assert "fonts" not in page_for_browser(PAGE, "http://0.0.0.0:8000", "shop-pc:8000")
 
 
 @pytest.mark.parametrize("path", ["/", "/static/js/textual.js", "/ws", "/abcd/ws", "/abcde", "/é/"])
 def test_a_path_without_the_secret_is_refused(path: str) -> None:
-    assert not knows(path, "abc")
+    assert not has_secret(path, "abc")
 
 
 def test_a_path_below_the_secret_is_accepted() -> None:
-    assert knows("/abc/static/js/textual.js", "abc")
+    assert has_secret("/abc/static/js/textual.js", "abc")
