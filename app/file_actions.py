@@ -18,7 +18,16 @@ from app.documents.document import AnyDocument, ContourDocument, Document, NcDoc
 from app.documents.document_service import DocumentService, Notice, Offer, Opened, Saved, Trouble
 from app.documents.files import refuse_program, write_output
 from app.documents.nc_text import NC_SUFFIXES
-from app.documents.paths import chosen, is_drawing, is_folder, program_named, short_path, typed, with_suffix, written_at
+from app.documents.paths import (
+    is_drawing,
+    is_folder,
+    path_of_text,
+    program_named,
+    resolved_name,
+    short_path,
+    with_suffix,
+    written_path,
+)
 from app.documents.questions import (
     DISCARD,
     GO_BACK,
@@ -218,7 +227,7 @@ class FileActions(DerivationActions):
 
         def opened() -> Opened[Any] | Trouble | Path:
             if not kept_copy:
-                where = _file_of_name(chosen(path, here))
+                where = _file_of_name(resolved_name(path, here))
                 return where if is_folder(where) or is_drawing(where) else service.open(where)
             file = file_of_copy(path, path.parent)
             return service.copy_without_name(path) if file is None else service.open(file, kept_copy=path)
@@ -379,9 +388,9 @@ class FileActions(DerivationActions):
         proof = self.proofs[-1] if self.proofs and self.screen_stack[-2:-1] == self.proofs[-1:] else None
         if proof is not None:
             old = proof.document.file.path
-            self._save(proof, with_suffix(typed(text), ".nc" if old is None else old.suffix))
+            self._save(proof, with_suffix(path_of_text(text), ".nc" if old is None else old.suffix))
         else:
-            self._save(None, typed(text))
+            self._save(None, path_of_text(text))
 
     async def write_made(self, text: str, suffix: str, make: Callable[[Path], str]) -> tuple[str, str] | None:
         """Write the text from `make` under a typed name; return where it was written and the text, None if it was not.
@@ -389,7 +398,7 @@ class FileActions(DerivationActions):
         Ask before replacing a file; report the errors of `make` and the disk.  Call only in a worker.
         """
         file = self.session.file
-        path = self.disk.do(lambda: with_suffix(chosen(typed(text), file), suffix))
+        path = self.disk.do(lambda: with_suffix(resolved_name(path_of_text(text), file), suffix))
 
         def before() -> Ask | None:
             refuse_program(path)
@@ -397,7 +406,7 @@ class FileActions(DerivationActions):
 
         def written(made: str) -> str:
             write_output(path, made)
-            return written_at(path)
+            return written_path(path)
 
         try:
             ask = self.disk.do(before)
@@ -430,7 +439,7 @@ class FileActions(DerivationActions):
             )
             if not name.strip():
                 return None
-            path = typed(name)
+            path = path_of_text(name)
         while isinstance(result := self.disk.do(partial(self.service.save, document, path, agreed)), Ask):
             word = await self.ask(result)
             if word == GO_BACK:

@@ -28,7 +28,16 @@ from app.documents.files import (
 from app.documents.journal import Head, Journal, Kind, beginning, continuing, records_between, same_edits
 from app.documents.journal_file import JournalFile, journal_path, new_path, set_aside, why_aside
 from app.documents.lock import Lock, Owner, alive, held_by, myself, release, take, take_over, taken_by
-from app.documents.paths import as_program, chosen, folder, is_folder, outside, printable_path, short_path, written_at
+from app.documents.paths import (
+    as_program,
+    folder,
+    is_folder,
+    is_outside_folder,
+    printable_path,
+    resolved_name,
+    short_path,
+    written_path,
+)
 from app.documents.programs import empty_program, example, examples
 from app.documents.questions import GO_BACK, Ask, held_sentence, name_of, person, whole_name
 from app.documents.time_limits import FILE_SECONDS, within
@@ -556,7 +565,7 @@ class DocumentService:
         entry, file = self._open[document.file.opening], document.file.path
         if path is None and file is None:
             return Trouble(f"{name_of(document)} has no name yet. SAVE AS (Ctrl+K) gives it one.")
-        target = file if path is None else chosen(path, file)
+        target = file if path is None else resolved_name(path, file)
         assert target is not None
         if document.kind is Kind.CONTOUR and target != file:
             target = as_program(target)
@@ -587,7 +596,7 @@ class DocumentService:
         return None
 
     def _ask_before_other(self, document: Document, target: Path) -> Ask | None:
-        if outside(target, document.file.path):
+        if is_outside_folder(target, document.file.path):
             return questions.write_outside(target, document.file.path, held_by(target))
         return questions.replace_file(target, held_by(target)) if os.path.lexists(target) else None
 

@@ -19,7 +19,7 @@ MAX_PATH_IN_SENTENCE: Final = 60
 # ---- typed names
 
 
-def typed(text: str) -> Path:
+def path_of_text(text: str) -> Path:
     """Return the path of a typed name with ~ expanded, unless no home folder is known for it."""
     path = Path(text.strip())
     try:
@@ -64,12 +64,12 @@ def program_named(path: Path) -> Path:
 # ---- the chosen folder
 
 
-def chosen(path: Path, file: Path | None) -> Path:
+def resolved_name(path: Path, file: Path | None) -> Path:
     """Return where a typed name leads: beside the open file if it names no folder."""
     return path if file is None or path.name != str(path) else file.parent / path
 
 
-def outside(path: Path, file: Path | None) -> bool:
+def is_outside_folder(path: Path, file: Path | None) -> bool:
     """True if a file would be written outside the chosen folder, even through a link; False for a folder."""
     return not is_folder(path) and not Path(os.path.realpath(path)).is_relative_to(folder(file))
 
@@ -90,7 +90,7 @@ def current_folder() -> Path:
 # ---- in sentences
 
 
-def written_at(path: Path) -> str:
+def written_path(path: Path) -> str:
     """Name a file that was written: by its absolute path if it is not in the current folder."""
     here = Path(os.path.realpath(path)).parent == folder(None)
     return printable_path(path.name) if here else printable_path(Path(os.path.normpath(current_folder() / path)))

@@ -15,7 +15,7 @@ from app.documents import times
 from app.documents.document import ContourDocument, Document
 from app.documents.journal import Journal, Kind
 from app.documents.lock import Owner
-from app.documents.paths import folder, outside, printable_path
+from app.documents.paths import folder, is_outside_folder, printable_path
 from app.documents.unsaved_work import UNNAMED_PROGRAM, Unreadable
 from core.units import printable
 
@@ -133,7 +133,7 @@ def write_outside(path: Path, file: Path | None, holder: Owner | None) -> Ask:
 
 def before_output(path: Path, file: Path | None) -> Ask | None:
     """Ask before a program's output is written into another folder or over an existing file; None if neither."""
-    if outside(path, file):
+    if is_outside_folder(path, file):
         return write_outside(path, file, None)
     return replace_file(path, None) if os.path.lexists(path) else None
 

@@ -11,7 +11,7 @@ from textual.binding import Binding, BindingType
 from textual.containers import Horizontal, Vertical
 from textual.widgets import Input
 
-from app.documents.paths import typed
+from app.documents.paths import path_of_text
 from app.screens.base import NO_LIST_KEYS, BaseScreen
 from app.session.guide import SAVE_NAME
 from app.session.messages import Tone
@@ -119,4 +119,4 @@ class OpenPathScreen(EntryScreen):
 
     def entered(self, text: str) -> None:
         """Open the file, or show the folder."""
-        self.host.open_file(typed(text))
+        self.host.open_file(path_of_text(text))

@@ -10,7 +10,7 @@ from textual.app import ComposeResult
 from textual.content import Content
 from textual.widgets import Static
 
-from app.documents.paths import typed
+from app.documents.paths import path_of_text
 from app.documents.questions import Answer
 from app.documents.tool_tables import merged, read_table, tool_line
 from app.screens.dialogs import Question
@@ -66,7 +66,7 @@ class ImportToolsScreen(EntryScreen):
         """Read the table; ask before anything changes."""
         program, faults = self.current_session.program, self.query_one("#table-faults", Static)
         try:
-            table = read_table(typed(text), self.unit, program.unit)
+            table = read_table(path_of_text(text), self.unit, program.unit)
         except StoreError as error:
             self.say(str(error), Tone.ERROR)
             return

@@ -6,14 +6,14 @@ from pathlib import Path
 
 import pytest
 
-from app.documents.paths import as_program, is_folder, program_named, typed, with_suffix
+from app.documents.paths import as_program, is_folder, path_of_text, program_named, with_suffix
 
 LONG = "中" * 100
 
 
 def test_a_tilde_is_expanded_only_for_an_existing_user() -> None:
-    assert typed(" ~ ") == Path.home()
-    assert typed("~nobody_at_all/x") == Path("~nobody_at_all/x")
+    assert path_of_text(" ~ ") == Path.home()
+    assert path_of_text("~nobody_at_all/x") == Path("~nobody_at_all/x")
 
 
 def test_a_suffix_is_added_only_to_a_name_without_one() -> None:
