@@ -36,7 +36,7 @@ class KeyOrder:
     def __init__(self, app: App[Any]) -> None:
         self.app = app
         self.waiting: deque[Message] = deque()
-        self.on_its_way: _Walk | None = None
+        self.current_walk: _Walk | None = None
         """The walk that follows the key handed on last; None if there is none."""
         self._patience: TimerHandle | None = None
 
@@ -46,7 +46,7 @@ class KeyOrder:
             self.app.post_message(message)
             return
         self.waiting.append(message)
-        if self.on_its_way is None:
+        if self.current_walk is None:
             self.send_next()
 
     def send_next(self) -> None:
@@ -54,10 +54,10 @@ class KeyOrder:
         if self._patience is not None:
             self._patience.cancel()
         if not self.waiting:
-            self.on_its_way = None
+            self.current_walk = None
             return
         # made before the key is sent: the key goes to the widget that has the cursor now
-        self.on_its_way = walk = _Walk(self)
+        self.current_walk = walk = _Walk(self)
         self.app.post_message(self.waiting.popleft())
         self._look(walk, -1, 0)
         walk.go()
@@ -70,7 +70,7 @@ class KeyOrder:
         else:
             self._patience = get_running_loop().call_later(CHECK_SECONDS, self._look, walk, walk.steps, still)
 
-    def way(self) -> list[MessagePump]:
+    def focus_path(self) -> list[MessagePump]:
         """Return the path from the widget with the cursor up to the App."""
         if not self.app.screen_stack:
             return [self.app]
@@ -86,12 +86,12 @@ class _Walk:
         self._rounds = FEWEST_ROUNDS
         self._taken = False
         """True if any queue has taken the callback in this round."""
-        way = order.way()
-        self._screen, self._rest = way[-2:], [order.app, *way]
+        focus_path = order.focus_path()
+        self._screen, self._rest = focus_path[-2:], [order.app, *focus_path]
 
     def go(self) -> None:
         """Go to the end of the next queue on the path; skip closed ones."""
-        if self.order.on_its_way is not self:
+        if self.order.current_walk is not self:
             return
         self.steps += 1
         while self._rest:
@@ -106,19 +106,19 @@ class _Walk:
     def _next_round(self) -> None:
         """Go around again while messages wait; else check once more after the callbacks already scheduled."""
         self._rounds -= 1
-        if self._rounds > 0 or any(pump.message_queue_size for pump in self.order.way()):
-            self._rest = self.order.way()
+        if self._rounds > 0 or any(pump.message_queue_size for pump in self.order.focus_path()):
+            self._rest = self.order.focus_path()
             self.go()
         else:
             get_running_loop().call_soon(self._end)
 
     def _end(self) -> None:
         """Send the next key; if another screen is in front, also by a worker, go around as often again."""
-        if self.order.on_its_way is not self:
+        if self.order.current_walk is not self:
             return
-        way = self.order.way()
-        if way[-2:] == self._screen:
+        focus_path = self.order.focus_path()
+        if focus_path[-2:] == self._screen:
             self.order.send_next()
         else:
-            self._screen, self._rest, self._rounds = way[-2:], way, FEWEST_ROUNDS
+            self._screen, self._rest, self._rounds = focus_path[-2:], focus_path, FEWEST_ROUNDS
             self.go()

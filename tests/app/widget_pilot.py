@@ -97,7 +97,7 @@ class Operator:
         for key in keys:
             for name in key[1:] if key.startswith("'") else (key,):
                 order.take(key_event(name))
-                while order.on_its_way:
+                while order.current_walk:
                     await sleep(0)
 
     async def settle(self) -> None:

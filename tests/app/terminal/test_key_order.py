@@ -26,7 +26,7 @@ async def burst(user: Operator, *keys: str) -> None:
     order = KeyOrder(user.app)
     for key in keys:
         order.take(events.Key(key, key if len(key) == 1 else None))
-    while order.on_its_way:
+    while order.current_walk:
         await asyncio.sleep(0.001)
     await user.settle()
 
