@@ -14,7 +14,7 @@ from typing import Final
 
 import numpy as np
 
-from core.geometry.path import Floats, Path, point_of_row
+from core.geometry.path import Floats, Path, joined, point_of_row
 from core.geometry.piece import Side
 from core.geometry.piece_arrays import PieceArrays, piece_arrays
 from core.tolerance import JOINED
@@ -43,7 +43,26 @@ class CornerLoop:
 
 
 def without_corner_loops(contour: Path, side: Side) -> tuple[Path, tuple[CornerLoop, ...]]:
-    """Return the contour with each loop cut back to its outside corner, and the loops."""
+    """Return the contour with each loop cut back to its outside corner, and the loops.
+
+    A closed contour may begin within a loop, as repeated passes do that a loop leads from one to the next.
+    """
+    shorter, loops = _cut_back(contour, side)
+    if not len(shorter) or np.abs(shorter.points[0] - shorter.points[-1]).max() > JOINED or not _crosses(shorter):
+        return shorter, loops
+    middle = int(np.abs(shorter.lengths.cumsum() - 0.5 * shorter.lengths.sum()).argmin()) + 1
+    elsewhere = joined([shorter.part(middle, len(shorter)), shorter.part(0, middle)])
+    again, more = _cut_back(elsewhere, side)
+    return (again, (*loops, *more)) if more else (shorter, loops)
+
+
+def _crosses(contour: Path) -> bool:
+    with np.errstate(all="ignore"):
+        return bool(len(self_crossings(piece_arrays(contour), closed=True)))
+
+
+def _cut_back(contour: Path, side: Side) -> tuple[Path, tuple[CornerLoop, ...]]:
+    """Return the contour without the loops that it does not begin in, and these loops."""
     loops = list[CornerLoop]()
     while len(contour) > 3 and (loop := _first_loop(contour, side)) is not None:
         first, last, at = loop

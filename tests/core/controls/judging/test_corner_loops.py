@@ -84,3 +84,37 @@ def test_the_wall_behind_a_loop_is_judged() -> None:
     too_deep = Path.from_pieces([Line((-5.0, 43.0), (60.0, 43.0))])
     (gouge,) = judge(result.surface, Side.LEFT, 5.0, too_deep).gouges
     assert gouge.depth == pytest.approx(2.0)
+
+
+REPEATED = (
+    "G21 G17 G40 G90 F300\nG0 X-30. Y-30.\nG1 Z0.\nG41 D1 X0. Y-20.\nM98 P2000 L4\nG40 G1 X-30. Y-30.\nM30\n"
+    "O2000\nG91 G1 Z-2.5\nG90 Y50.\n{around}X0.\nM99\n"
+)
+"""Four depths of a plate of 80 by 50, with a loop around the corner X0 Y0 from each one to the next."""
+
+
+@pytest.mark.parametrize("control", ["fanuc:a", "haas:a", "nine-series:a"])
+def test_a_loop_may_lead_from_one_depth_to_the_next(control: str) -> None:
+    text = REPEATED.format(around="X80.\nY0.\nX-20.\nY-20.\n")
+    done = run(text.encode(), control, ToolTable.of(CutterTool(1, 16.0)))
+    assert isinstance(done, ControlRun)
+    (result,) = results = judge_run(done)
+    assert result.verdict.clean
+    (told,) = [finding for finding in judged_findings(results) if finding.code == "CORNER-LOOP"]
+    assert told.at == pytest.approx((0.0, 0.0))
+    # 80 of the loop against the 260 around the plate
+    assert (told.severity, result.loops[0].numbers) == (Severity.WARNING, (13.0, 14.0, 15.0, 10.0))
+
+
+@pytest.mark.parametrize(
+    "around",
+    [
+        pytest.param("X80.\nY0.\nX-14.\nY-20.\n", id="a loop narrower than the cutter"),
+        pytest.param("X80.\nY0.\nX10.\nY-20.\n", id="no loop"),
+        pytest.param("X80.\nY20.\nX-20.\nY-20.\n", id="back through the plate"),
+    ],
+)
+def test_a_gouge_where_a_loop_leads_to_the_next_depth_is_found(around: str) -> None:
+    done = run(REPEATED.format(around=around).encode(), "fanuc:a", ToolTable.of(CutterTool(1, 16.0)))
+    assert isinstance(done, ControlRun)
+    assert done.stopped_at is not None or any(result.verdict.gouges for result in judge_run(done))
