@@ -183,9 +183,9 @@ def programmed_surface(stretch: Stretch) -> Path:
 
 
 def _judge_without_moves_above(run: ControlRun, stretch: Stretch, height: float) -> list[Judged]:
-    """Judge a stretch; if it gouges, omit its moves at `height` or higher unless that leaves more gouges."""
+    """Judge a stretch; if it gouges or loops, omit its moves at `height` or higher unless that leaves more gouges."""
     whole = _judge_stretch(run, stretch)
-    if not any(result.verdict.gouges or result.verdict.wrong_side for result in whole):
+    if not any(result.verdict.gouges or result.verdict.wrong_side or result.loops for result in whole):
         return whole
     parted = divided(run.moves, stretch, height)
     pieces = None if parted is None else _judge_pieces(run, stretch, parted)
