@@ -202,6 +202,11 @@ class BaseScreen(Screen[None]):
             self.query_one(Status).read_machine()
         self.call_after_refresh(self._place_cursor)
 
+    def on_screen_suspend(self) -> None:
+        """Forget the sentence about the last key when another screen covers this one; under a dialog it stays."""
+        if not self.in_view:
+            self.quiet()
+
     def _place_cursor(self) -> None:
         """Move the terminal's own hidden cursor to the field: input methods and magnifiers follow it."""
         if isinstance(self.focused, Input):

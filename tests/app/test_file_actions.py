@@ -191,6 +191,15 @@ async def test_a_message_about_a_program_disappears_with_the_next_one(folder):
         assert user.prompt == "Tool number. Space lists the tools."
 
 
+async def test_a_message_is_gone_when_its_screen_comes_back_from_behind_another_one(folder):
+    async with at_work(folder) as user:
+        await user.press("f1")
+        assert user.prompt == "START cannot be deleted."
+        await user.press("ctrl+o", "escape")
+        assert user.at == "segment"
+        assert user.prompt.startswith("Enter a segment number")
+
+
 async def test_letters_typed_in_quick_succession_spell_one_name(folder):
     for name in ("part-b.nc", "part-c.nc", "pin.nc"):
         (folder / name).write_text("M30\n")
