@@ -17,7 +17,8 @@ from numpy.typing import NDArray
 from core.geometry.piece import Arc, Line, Piece, Turn, point_of
 from core.importing.curves import MAX_RADIUS, Points
 
-MIN_CORNER_ANGLE: Final = radians(5.0)
+MIN_CORNER_ANGLE: Final = radians(5.05)
+"""5 degrees, the turns of a circle of 72 lines, and what rounded coordinates add to them."""
 MIN_LINES: Final = 3
 """Fewest lines that an arc replaces."""
 

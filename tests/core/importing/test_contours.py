@@ -540,6 +540,14 @@ def test_fitting_keeps_corners() -> None:
     assert fitted_contour(listed(data).contours[0], 0.005).drawn == 4
 
 
+def test_a_circle_of_72_lines_becomes_a_circle() -> None:
+    """Its corners turn by 5 degrees each, a bit more or less where the coordinates are rounded."""
+    turns = [math.radians(degrees) for degrees in range(0, 365, 5)]
+    points = [(round(120.0 + 20.0 * math.cos(turn), 4), round(30.0 + 20.0 * math.sin(turn), 4)) for turn in turns]
+    data = dxf(*(line(*pair) for pair in itertools.pairwise(points)))
+    assert fitted_contour(listed(data).contours[0], 0.02).drawn == 1
+
+
 def test_a_sampled_notch_becomes_one_arc() -> None:
     # a 20 by 10 plate with a half circle of radius 4 cut out of its top edge, sampled by 100 lines
     notch = [(10 + 4 * math.cos(math.pi * k / 100), 10 - 4 * math.sin(math.pi * k / 100)) for k in range(101)]
