@@ -662,7 +662,7 @@ class DocumentService:
             saved = self._relock(entry, saved)
         other = "" if theirs is None else f" The other version is in {whole_name(theirs)}."
         reason = f", in place: {in_place}" if in_place else ""
-        return Saved(saved, Notice(f"Saved: {written_at(path)}{reason}{other}{_unread_note(saved)}"))
+        return Saved(saved, Notice(f"Saved: {written_path(path)}{reason}{other}{_unread_note(saved)}"))
 
     def _relock(self, entry: _OpenDocument, document: AnyDocument) -> AnyDocument:
         """Replace the lock after a save under another name."""
