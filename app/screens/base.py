@@ -205,7 +205,7 @@ class BaseScreen(Screen[None]):
     def on_screen_suspend(self) -> None:
         """Forget the sentence about the last key when another screen covers this one; under a dialog it stays."""
         if not self.in_view:
-            self.quiet()
+            self.clear_notice()
 
     def _place_cursor(self) -> None:
         """Move the terminal's own hidden cursor to the field: input methods and magnifiers follow it."""
