@@ -56,7 +56,7 @@ def status(user: Operator) -> str:
     return str(user.screen.query_one(Status).query_one("#units").render())
 
 
-async def seen(user: Operator, text: str) -> None:
+async def until_status_shows(user: Operator, text: str) -> None:
     """Wait until the status line contains this text."""
     while text not in status(user):
         await user.pilot.pause(0.01)
@@ -77,7 +77,7 @@ async def test_a_long_derivation_shows_its_progress_and_escape_stops_it(monkeypa
     async with operator() as user:
         slow = Slow(monkeypatch, app_module, "derived")
         await user.send(*["tab"] * 4, "2", ".", "1", "enter")
-        await seen(user, "working 40 %, Esc stops")
+        await until_status_shows(user, "working 40 %, Esc stops")
         verdict = user.screen.query_one("#verdict")
         assert "working 40 %" in str(verdict.border_title)
         await user.press("escape")
@@ -96,7 +96,7 @@ async def test_an_abandoned_half_typed_number_leaves_the_program_calculated(monk
     async with operator() as user:
         slow = Slow(monkeypatch, app_module, "derived")
         await user.send("tab", "2", "enter")
-        await seen(user, "working 40 %")
+        await until_status_shows(user, "working 40 %")
         await user.send("down", "4")
         slow.go.set()
         await user.press("tab", "ctrl+z", "ctrl+z")
@@ -108,7 +108,7 @@ async def test_a_stopped_look_ahead_table_is_made_on_request(monkeypatch):
     async with operator() as user:
         slow = Slow(monkeypatch, app_module, "lookahead_table")
         await user.send(*["tab"] * 4, "2", ".", "1", "enter")
-        await seen(user, "working 40 %, Esc stops")
+        await until_status_shows(user, "working 40 %, Esc stops")
         await user.press("escape")
         assert slow.stopped
         assert user.session.lookahead_table is None
@@ -123,7 +123,7 @@ async def test_the_strip_shows_the_values_that_are_judged_while_the_others_are_n
         rows = user.session.lookahead_table.rows
         slow = Slow(monkeypatch, app_module, "lookahead_table")
         await user.send(*["tab"] * 4, "2", ".", "1", "enter")
-        await seen(user, "working 40 %, Esc stops")
+        await until_status_shows(user, "working 40 %, Esc stops")
         strip = user.screen.query_one("#strip", Static)
         assert "✖" not in str(strip.content)
         slow.arguments[2](rows[:1])

@@ -38,7 +38,7 @@ def typed(terminal: Terminal) -> None:
     terminal.send(b"\t3")
 
 
-def left(part: Path) -> History:
+def journaled_work(part: Path) -> History:
     """The work in the journal beside the program; no lock and no other file is left."""
     assert [child.name for child in part.parent.iterdir()] == [".part.toml.cutcomp-journal"]
     journal = read(part.with_name(".part.toml.cutcomp-journal"))
@@ -70,7 +70,7 @@ def test_a_signal_ends_the_program_cleanly(part: Path, number: signal.Signals) -
         end = bytes(terminal.seen[-400:])
         assert b"\x1b[?1049l" in end, "the screen from before"
         assert b"\x1b[?25h" in end, "the cursor"
-    assert left(part).program.blocks[0].tool == Number(7.0)
+    assert journaled_work(part).program.blocks[0].tool == Number(7.0)
 
 
 def test_ctrl_z_during_the_end_does_not_stop_the_program(part: Path) -> None:
@@ -84,7 +84,7 @@ def test_ctrl_z_during_the_end_does_not_stop_the_program(part: Path) -> None:
                 terminal.send(b"\x1a")
             terminal.read(quiet=0.0005, longest=0.001)
         assert status == 128 + signal.SIGTERM
-    assert left(part).program.blocks[0].tool == Number(7.0)
+    assert journaled_work(part).program.blocks[0].tool == Number(7.0)
 
 
 def test_a_signal_after_a_save_leaves_no_journal(part: Path) -> None:
@@ -110,7 +110,7 @@ def test_a_dropped_link_ends_the_program(part: Path) -> None:
         typed(terminal)
         drop(terminal)
         assert ended(terminal.pid) == 128 + signal.SIGHUP
-    assert left(part).program.blocks[0].tool == Number(7.0)
+    assert journaled_work(part).program.blocks[0].tool == Number(7.0)
 
 
 def test_a_dropped_link_is_noticed_without_a_signal(part: Path) -> None:
@@ -122,7 +122,7 @@ def test_a_dropped_link_is_noticed_without_a_signal(part: Path) -> None:
         lock = part.with_name(".part.toml.cutcomp-lock")
         while lock.exists() and time.monotonic() - since < PATIENCE:
             time.sleep(0.01)
-    assert left(part).program.blocks[0].tool == Number(7.0)
+    assert journaled_work(part).program.blocks[0].tool == Number(7.0)
 
 
 def stall(terminal: Terminal, journal: Path) -> int:
@@ -158,7 +158,7 @@ def test_a_blocked_terminal_cannot_keep_the_program_alive(part: Path) -> None:
         assert ended(terminal.pid, GRACE_SECONDS + PATIENCE) == 143
         assert time.monotonic() - since > 1.0, "the loop was not blocked: nothing was tested"
         assert termios.tcgetattr(terminal.fd) == before
-    history = left(part)
+    history = journaled_work(part)
     assert edits > 5
     assert history.undo_count == edits
     assert history.undo_label == "TOOL of START, block 1"

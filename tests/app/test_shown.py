@@ -53,10 +53,10 @@ class Watched:
     @property
     def alike(self) -> bool:
         cursors = [(screen.cursor.y, screen.cursor.x) for screen in (self.ours, self.whole)]
-        return seen(self.ours) == seen(self.whole) and cursors[0] == cursors[1]
+        return displayed_cells(self.ours) == displayed_cells(self.whole) and cursors[0] == cursors[1]
 
 
-def seen(screen: pyte.Screen) -> list[Any]:
+def displayed_cells(screen: pyte.Screen) -> list[Any]:
     """Every cell as displayed: of a blank, only its background counts."""
     cells = [screen.buffer[y][x] for y in range(screen.lines) for x in range(screen.columns)]
     return [(" ", cell.bg) if cell.data == " " and not (cell.reverse or cell.underscore) else cell for cell in cells]

@@ -25,7 +25,7 @@ OTHERS = (
 )
 
 
-def shown(data: str) -> list[tuple[Any, ...]]:
+def displayed_cells(data: str) -> list[tuple[Any, ...]]:
     """Every cell as displayed: of a blank, only its background counts."""
     screen = pyte.Screen(20, 6)
     pyte.Stream(screen).feed(data)
@@ -69,7 +69,7 @@ def painted(pieces: list[tuple[str, str, str]]) -> str:
 )
 def test_the_same_cells_in_no_more_bytes(pieces: list[tuple[str, str, str]]) -> None:
     data = painted(pieces)
-    assert shown(slim(data)) == shown(data)
+    assert displayed_cells(slim(data)) == displayed_cells(data)
     assert len(slim(data)) <= len(data)
 
 

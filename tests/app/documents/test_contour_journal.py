@@ -22,14 +22,14 @@ ONE_TOOL = dumps(Program(PART.unit, tools=PART.tools))
 NOTHING = {"tools": [0, 0], "blocks": [0, 0], "segments": None, "text": dumps(Program(PART.unit))}
 
 
-def kept(old: Program, new: Program) -> Program:
+def through_journal(old: Program, new: Program) -> Program:
     return applied(old, json.loads(json.dumps(delta(old, new))))
 
 
 @settings(max_examples=20, derandomize=True, deadline=None)
 @given(programs, programs)
 def test_any_two_programs(old: Program, new: Program) -> None:
-    assert kept(old, new) == new
+    assert through_journal(old, new) == new
 
 
 def test_one_field_is_one_small_record() -> None:
@@ -45,7 +45,7 @@ def test_one_field_is_one_small_record() -> None:
 def test_a_blank_and_an_unreadable_text_are_recorded(typed: Unread | None) -> None:
     edited = type_field(PART, FormPlace(1), "x_start", typed)
     assert isinstance(edited, Program)
-    result = kept(PART, edited).blocks[0].x_start
+    result = through_journal(PART, edited).blocks[0].x_start
     assert result == typed if typed is None else result.text == typed.text
 
 
@@ -54,8 +54,8 @@ def test_an_inserted_and_a_deleted_segment_are_recorded() -> None:
     shorter = delete_segment(PART, FormPlace(1, 1))
     assert isinstance(longer, Program)
     assert isinstance(shorter, Program)
-    assert (kept(PART, longer), delta(PART, longer)["segments"]) == (longer, [1, 0])
-    assert (kept(PART, shorter), delta(PART, shorter)["segments"]) == (shorter, [0, 1])
+    assert (through_journal(PART, longer), delta(PART, longer)["segments"]) == (longer, [1, 0])
+    assert (through_journal(PART, shorter), delta(PART, shorter)["segments"]) == (shorter, [0, 1])
 
 
 @pytest.mark.parametrize(
@@ -98,14 +98,18 @@ def test_applying_an_edit_shares_the_unchanged_segments() -> None:
 def test_a_change_of_unit_is_one_small_record() -> None:
     inch = replace(PART, unit=Unit.IN)
     assert PART.unit is Unit.MM
-    assert kept(PART, inch) == inch
+    assert through_journal(PART, inch) == inch
     assert "[[block]]" not in delta(PART, inch)["text"]
 
 
 def test_a_new_tool_is_sorted_in() -> None:
     more = replace(PART, tools=(*PART.tools, Tool(7, "DRILL", Number(3.0))))
     between = replace(more, tools=(more.tools[0], Tool(3), more.tools[1]))
-    assert (kept(PART, more), kept(more, between), kept(between, PART)) == (more, between, PART)
+    assert (through_journal(PART, more), through_journal(more, between), through_journal(between, PART)) == (
+        more,
+        between,
+        PART,
+    )
 
 
 def test_values_that_connect_segments_are_read_back() -> None:
@@ -122,4 +126,4 @@ def test_values_that_connect_segments_are_read_back() -> None:
         choice=5,
     )
     arc = ArcSegment(Direction.CCW, x_center=Relative(-2.0), start_angle=Relative(90.0), choice=4096)
-    assert kept(PART, program(connected, arc)) == program(connected, arc)
+    assert through_journal(PART, program(connected, arc)) == program(connected, arc)

@@ -44,7 +44,7 @@ def part(tmp_path: Path) -> Path:
     return path
 
 
-def held(part: Path, owner: Owner) -> Lock:
+def lock_of(part: Path, owner: Owner) -> Lock:
     lock = take(part, owner)
     assert isinstance(lock, Lock)
     return lock
@@ -52,25 +52,25 @@ def held(part: Path, owner: Owner) -> Lock:
 
 def test_the_second_opener_learns_who_has_the_file_open(part: Path) -> None:
     assert held_by(part) is None
-    held(part, ELSEWHERE)
+    lock_of(part, ELSEWHERE)
     assert take(part, ME) == ELSEWHERE
     assert held_by(part) == ELSEWHERE
 
 
 def test_releasing_a_lock_leaves_nothing(part: Path) -> None:
-    release(held(part, ME))
+    release(lock_of(part, ME))
     assert [child.name for child in part.parent.iterdir()] == ["part.toml"]
 
 
 def test_a_file_that_does_not_yet_exist_can_be_locked(tmp_path: Path) -> None:
-    held(tmp_path / "new.toml", ELSEWHERE)
+    lock_of(tmp_path / "new.toml", ELSEWHERE)
     assert take(tmp_path / "new.toml", ME) == ELSEWHERE
 
 
 def test_a_lock_is_readable_by_everybody(part: Path) -> None:
     before = os.umask(0o077)
     try:
-        held(part, ME)
+        lock_of(part, ME)
     finally:
         os.umask(before)
     assert lock_path(part).stat().st_mode & 0o777 == 0o644
@@ -79,25 +79,25 @@ def test_a_lock_is_readable_by_everybody(part: Path) -> None:
 def test_a_link_and_its_file_share_one_lock(part: Path) -> None:
     link = part.with_name("link.toml")
     link.symlink_to(part)
-    held(link, ELSEWHERE)
+    lock_of(link, ELSEWHERE)
     assert take(part, ME) == ELSEWHERE
 
 
 def test_a_dead_process_of_this_host_holds_nothing(part: Path) -> None:
-    held(part, replace(ME, pid=DEAD_PID))
+    lock_of(part, replace(ME, pid=DEAD_PID))
     assert held_by(part) is None
     assert take(part, ME) == Lock(lock_path(part), ME)
 
 
 def test_a_lock_of_an_earlier_process_with_the_same_number_is_stale(part: Path) -> None:
-    held(part, replace(ME, started="an earlier boot:5"))
+    lock_of(part, replace(ME, started="an earlier boot:5"))
     assert isinstance(take(part, replace(ME, since="later")), Lock)
 
 
 def test_a_living_process_of_this_host_holds_its_lock(part: Path) -> None:
     with subprocess.Popen([sys.executable, "-c", "input()"], stdin=subprocess.PIPE) as other:
         owner = Owner("ann", ME.host, other.pid, started(other.pid), "earlier")
-        held(part, owner)
+        lock_of(part, owner)
         assert take(part, ME) == owner
         other.communicate(b"\n")
     assert isinstance(take(part, ME), Lock)
@@ -122,7 +122,7 @@ def test_a_process_of_another_host_counts_as_alive() -> None:
 
 
 def test_the_first_owner_notices_a_take_over(part: Path) -> None:
-    first_lock = held(part, ELSEWHERE)
+    first_lock = lock_of(part, ELSEWHERE)
     assert taken_by(first_lock) is None
     second_lock = take_over(part, ME)
     assert taken_by(first_lock) == ME
@@ -134,7 +134,7 @@ def test_the_first_owner_notices_a_take_over(part: Path) -> None:
 
 
 def test_a_removed_lock_is_not_taken_by_anybody(part: Path) -> None:
-    lock = held(part, ME)
+    lock = lock_of(part, ME)
     lock.path.unlink()
     assert taken_by(lock) is None
     release(lock)
@@ -156,7 +156,7 @@ def test_a_lock_being_written_is_waited_for(part: Path, monkeypatch: pytest.Monk
 
 
 def test_a_lock_we_may_not_read_counts_as_held(part: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    held(part, ELSEWHERE)
+    lock_of(part, ELSEWHERE)
 
     def hidden(*_: object) -> bytes:
         raise PermissionError(errno.EACCES, "hidden")

@@ -27,52 +27,54 @@ EVERYTHING = THINGS | ENDLESS
 
 
 @pytest.fixture(params=EVERYTHING)
-def what(request: pytest.FixtureRequest) -> str:
+def replacement(request: pytest.FixtureRequest) -> str:
     return str(request.param)
 
 
-def test_anything_in_place_of_a_program_is_refused_and_named(tmp_path: Path, what: str) -> None:
+def test_anything_in_place_of_a_program_is_refused_and_named(tmp_path: Path, replacement: str) -> None:
     path = tmp_path / "part.toml"
-    put_something(path, what)
-    with pytest.raises(StoreError, match=EVERYTHING[what]):
+    put_something(path, replacement)
+    with pytest.raises(StoreError, match=EVERYTHING[replacement]):
         load(path)
     opened = service(tmp_path / "own").open(path)
     assert isinstance(opened, Trouble)
-    assert EVERYTHING[what] in opened.text
+    assert EVERYTHING[replacement] in opened.text
     assert not is_nc(path)
 
 
-def test_anything_in_place_of_an_nc_text_is_refused_and_named(tmp_path: Path, what: str) -> None:
+def test_anything_in_place_of_an_nc_text_is_refused_and_named(tmp_path: Path, replacement: str) -> None:
     path = tmp_path / "part.nc"
-    put_something(path, what)
+    put_something(path, replacement)
     opened = service(tmp_path / "own").open(path)
     assert isinstance(opened, Trouble)
-    assert EVERYTHING[what] in opened.text
-    with pytest.raises(Unusable, match=EVERYTHING[what]):
+    assert EVERYTHING[replacement] in opened.text
+    with pytest.raises(Unusable, match=EVERYTHING[replacement]):
         bytes_of(path)
 
 
-def test_anything_in_place_of_a_tool_table_is_refused_and_named(tmp_path: Path, what: str) -> None:
+def test_anything_in_place_of_a_tool_table_is_refused_and_named(tmp_path: Path, replacement: str) -> None:
     path = tmp_path / "tool.tbl"
-    put_something(path, what)
-    with pytest.raises(StoreError, match=EVERYTHING[what]):
+    put_something(path, replacement)
+    with pytest.raises(StoreError, match=EVERYTHING[replacement]):
         read_table(path, Unit.IN, Unit.IN)
 
 
-def test_anything_in_place_of_settings_is_ignored_and_named(tmp_path: Path, what: str) -> None:
+def test_anything_in_place_of_settings_is_ignored_and_named(tmp_path: Path, replacement: str) -> None:
     path = tmp_path / "settings.toml"
-    put_something(path, what)
+    put_something(path, replacement)
     settings, trouble = load_settings(path)
     assert settings == Settings()
-    assert EVERYTHING[what] in trouble
+    assert EVERYTHING[replacement] in trouble
 
 
-def test_anything_in_place_of_a_journal_is_set_aside(state: Path, file: Path, what: str) -> None:
+def test_anything_in_place_of_a_journal_is_set_aside(state: Path, file: Path, replacement: str) -> None:
     """Work continues; the thing in the journal's place is set aside."""
-    put_something(journal_path(file), what)
+    put_something(journal_path(file), replacement)
     operator = started(state, file)
     assert "UNSAVED WORK IS DAMAGED" in operator.asked
-    assert (f"there is {THINGS[what]}" if what in THINGS else "is damaged and cannot be read") in operator.asked
+    assert (
+        f"there is {THINGS[replacement]}" if replacement in THINGS else "is damaged and cannot be read"
+    ) in operator.asked
     operator.answer("CONTINUE").type(7)
     assert "kept-1 holds what was left before" in operator.said
     operator.save().left()
@@ -80,23 +82,23 @@ def test_anything_in_place_of_a_journal_is_set_aside(state: Path, file: Path, wh
     assert os.path.lexists(journal_path(file).with_name(f"{journal_path(file).name}.kept-1"))
 
 
-def test_a_document_opens_with_anything_in_place_of_a_kept_copy(state: Path, file: Path, what: str) -> None:
+def test_a_document_opens_with_anything_in_place_of_a_kept_copy(state: Path, file: Path, replacement: str) -> None:
     copy = journal_path(file).with_name(f"{journal_path(file).name}.kept-1")
-    put_something(copy, what)
+    put_something(copy, replacement)
     opened = service(state).open(file, kept_copy=copy)
     assert isinstance(opened, Opened)
     assert opened.offer is not None
     asked = words(opened.offer.ask)
     assert "UNSAVED WORK IS DAMAGED" in asked
-    assert (f"there is {THINGS[what]}" if what in THINGS else "is damaged and cannot be read") in asked
+    assert (f"there is {THINGS[replacement]}" if replacement in THINGS else "is damaged and cannot be read") in asked
     assert f"The file is {copy.name}." in asked
 
 
 def test_output_is_not_written_to_anything_but_a_file(tmp_path: Path) -> None:
-    for what in THINGS:
-        path = tmp_path / what
-        put_something(path, what)
-        with pytest.raises(StoreError, match=THINGS[what]):
+    for replacement in THINGS:
+        path = tmp_path / replacement
+        put_something(path, replacement)
+        with pytest.raises(StoreError, match=THINGS[replacement]):
             write_output(path, "M30\n")
 
 

@@ -22,7 +22,7 @@ CLOSE = 1e-9
 SQUARE = lines((0, 0), (2, 0), (2, 2), (0, 2), (0, 0))
 
 
-def one(loop: Path) -> BestPath:
+def single_loop(loop: Path) -> BestPath:
     return BestPath((loop,), (True,), ())
 
 
@@ -51,7 +51,7 @@ def test_the_big_side_that_the_look_ahead_deletes_is_missing():
 
 
 def test_half_of_a_line_is_followed():
-    found = separation(lines((1, 0), (5, 0)), one(lines((0, 0), (2, 0), (2, 1))), 0.25)
+    found = separation(lines((1, 0), (5, 0)), single_loop(lines((0, 0), (2, 0), (2, 1))), 0.25)
     assert found.length == pytest.approx(2, abs=CLOSE)
     assert [stretch.points.tolist() for stretch in found.stretches] == [[[0, 0], [1, 0]], [[2, 0], [2, 1]]]
 
@@ -60,14 +60,14 @@ def test_an_arc_over_the_start_of_a_full_circle():
     circle = Path.from_pieces([Arc((1.0, 0.0), (1.0, 0.0), (0.0, 0.0), Turn.CCW)])
     quarters = Path.from_pieces([Arc((0.0, -1.0), (0.0, 1.0), (0.0, 0.0), Turn.CCW)])
     for control in (quarters, quarters.reversed()):
-        found = separation(control, one(circle), 0.25)
+        found = separation(control, single_loop(circle), 0.25)
         assert found.length == pytest.approx(pi, abs=CLOSE)
         (stretch,) = found.stretches
         assert stretch.points == pytest.approx(np.array([(0, 1), (0, -1)]), abs=CLOSE)
 
 
 def test_crossing_and_running_beside_are_not_following():
-    best = one(lines((0, 0), (2, 0)))
+    best = single_loop(lines((0, 0), (2, 0)))
     for control in (lines((1, -1), (1, 1)), lines((0, 1e-5), (2, 1e-5)), lines((0, -1e-3), (2, 1e-3)), EMPTY):
         assert separation(control, best, 0.25).length == pytest.approx(2, abs=CLOSE)
 
@@ -75,7 +75,7 @@ def test_crossing_and_running_beside_are_not_following():
 def test_arcs_of_other_circles_do_not_follow():
     half = Path.from_pieces([Arc((1.0, 0.0), (-1.0, 0.0), (0.0, 0.0), Turn.CCW)])
     other = Path.from_pieces([Arc((1.0, 0.0), (-1.0, 0.0), (0.0, -1e-3), Turn.CCW), Line((-1.0, 0.0), (1.0, 0.0))])
-    assert separation(other, one(half), 0.25).length == pytest.approx(pi, abs=CLOSE)
+    assert separation(other, single_loop(half), 0.25).length == pytest.approx(pi, abs=CLOSE)
 
 
 def test_without_a_best_path_nothing_is_missing():

@@ -114,7 +114,7 @@ def _same(one: Compensated, two: Compensated, move: Callable[[Floats], Floats], 
     assert one.bridged.tolist() == two.bridged.tolist()
 
 
-def _told(one: Compensated) -> list[tuple[str, float | None]]:
+def _findings_of(one: Compensated) -> list[tuple[str, float | None]]:
     return [(finding.code, finding.segment) for finding in one.findings]
 
 
@@ -128,7 +128,7 @@ def test_a_mirrored_contour_gives_the_mirrored_path_on_the_other_side(contour, s
     one = compensate(contour, side, radius, lookahead, closed=closed)
     two = compensate(_moved(contour, mirror, mirrored=True), OTHER[side], radius, lookahead, closed=closed)
     _same(one, two, mirror, 1e-9)
-    assert _told(one) == _told(two)
+    assert _findings_of(one) == _findings_of(two)
     assert one.path.turns.tolist() == (-two.path.turns).tolist()
 
 
@@ -143,7 +143,7 @@ def test_a_rotated_contour_gives_the_rotated_path(contour, side, radius, lookahe
     one = compensate(contour, side, radius, lookahead, closed=False)
     two = compensate(_moved(contour, turn), side, radius, lookahead, closed=False)
     _same(one, two, turn, 1e-7)
-    assert _told(one) == _told(two)
+    assert _findings_of(one) == _findings_of(two)
 
 
 @settings(max_examples=80, deadline=None, derandomize=True)
@@ -155,7 +155,7 @@ def test_a_contour_far_from_the_origin_gives_the_same_path_there(contour, side, 
     one = compensate(contour, side, radius, lookahead, closed=False)
     two = compensate(_moved(contour, shift), side, radius, lookahead, closed=False)
     _same(one, two, shift, 1e-6)
-    assert _told(one) == _told(two)
+    assert _findings_of(one) == _findings_of(two)
 
 
 @settings(max_examples=80, deadline=None, derandomize=True)

@@ -37,8 +37,8 @@ from tests.core.controls.written_programs import (
     INCH,
     SQUARE,
     cut,
-    made_by,
     outline,
+    run_written,
     squared,
     text_of,
     write,
@@ -63,7 +63,7 @@ def test_a_square_reads_back_or_is_refused_for_its_corners(control: str, side: S
         assert written.findings[0].segment == 2.0
         return
     assert isinstance(written, Posted), written
-    run = made_by(control, written.text, square)
+    run = run_written(control, written.text, square)
     (stretch,) = run.stretches
     path = run.moves.part(stretch.first, stretch.last).path()
     path_in_contour = path if control == "klartext" else path.part(1, len(path) - 1)
@@ -106,7 +106,7 @@ def test_each_pass_and_each_stock_is_a_separate_run(control: str) -> None:
     wide = compensate(SQUARE, Side.RIGHT, 0.3 * INCH, 4, closed=True, blend=0.125 * INCH)
     cuts = [cut(wide, stock=0.05, depth=-0.1), cut(squared(Side.RIGHT), depth=-0.1), cut(squared(Side.RIGHT))]
     text = text_of(control, *cuts)
-    run = made_by(control, text, *cuts)
+    run = run_written(control, text, *cuts)
     assert [stretch.radius / INCH for stretch in run.stretches] == pytest.approx([0.3, 0.25, 0.25])
     depths = [float(run.moves.points[stretch.last - 2, 2]) / INCH for stretch in run.stretches]
     assert depths == pytest.approx([-0.1, -0.1, -0.25])
@@ -219,7 +219,7 @@ UNCOMPENSATED = (
 )
 def test_a_move_with_a_wrong_or_invalid_number_is_a_difference(array: str, line: int, axis: int, bad: float) -> None:
     plain = replace(intended_program(), lines=UNCOMPENSATED)
-    run = made_by("linuxcnc", plain.text)
+    run = run_written("linuxcnc", plain.text)
     assert different_move(run, plain) is None
     values = getattr(run.moves, array).copy()
     values[np.flatnonzero(run.moves.lines == line), axis] += bad
@@ -246,7 +246,7 @@ def test_random_contours_read_back_or_are_refused_with_a_reason(
         assert result.findings
         return
     exercised()
-    run = made_by(control, result.text, cut(compensated, depth=-0.2))
+    run = run_written(control, result.text, cut(compensated, depth=-0.2))
     assert run.stopped_at is None
     (stretch,) = run.stretches
     path = run.moves.part(stretch.first, stretch.last).path()

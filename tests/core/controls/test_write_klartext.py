@@ -52,7 +52,7 @@ def outline(*points: Point) -> Path:
     return Path.from_pieces([Line(a, b) for a, b in pairwise(points)])
 
 
-def made_of(text: str, stretch: int = 0) -> Path:
+def path_on_control(text: str, stretch: int = 0) -> Path:
     """The path the control makes of a program."""
     made = run_klartext(text.encode(), ToolTable())
     assert made.stopped_at is None, made.findings
@@ -63,7 +63,7 @@ def made_of(text: str, stretch: int = 0) -> Path:
 
 def same_pieces(text: str, compensated: Compensated) -> bool:
     """Piece by piece the same path, but for entries of no length that rounding makes."""
-    path, whole = made_of(text), compensated.whole
+    path, whole = path_on_control(text), compensated.whole
     kept = path.lengths > MIN_TOLERANCE
     assert path.turns[kept].tolist() == whole.turns.tolist()
     return float(np.abs(path.ends[kept] - whole.ends).max()) < MIN_TOLERANCE
@@ -162,7 +162,7 @@ def test_every_pass_goes_along_the_same_path() -> None:
     compensated = compensate(SQUARE, Side.LEFT, 5.0, 4, closed=True, blend=3.0)
     text = written([cut(compensated, depth, {2: 50.0}) for depth in (-2.0, -4.0)])
     assert isinstance(text, str)
-    assert made_of(text, 0).points.tolist() == made_of(text, 1).points.tolist()
+    assert path_on_control(text, 0).points.tolist() == path_on_control(text, 1).points.tolist()
     assert text.count("L X+60 Y+60 F50\n") == 2
 
 
@@ -188,7 +188,7 @@ def test_what_is_written_is_what_is_run(legs: list[tuple[float, float]], side: S
     compensated = compensate(outline(*points), side, 4.0, 3, closed=False, blend=2.0)
     text = write(compensated)
     if isinstance(text, str):
-        path, whole = made_of(text), compensated.whole
+        path, whole = path_on_control(text), compensated.whole
         assert float(np.hypot(*(path.points[0] - whole.points[0]))) < MIN_TOLERANCE
         assert float(path.lengths.sum()) == pytest.approx(float(whole.lengths.sum()), abs=0.01)
     else:

@@ -30,9 +30,9 @@ from tests.core.controls.written_programs import (
     INCH,
     SQUARE,
     cut,
-    made_by,
     outline,
     refused,
+    run_written,
     squared,
     text_of,
     write,
@@ -202,7 +202,7 @@ def test_the_ends_of_a_path_without_blends_are_on_the_contour() -> None:
 )
 def test_a_clean_path_is_clean_when_its_program_is_read_back(control: str, overlap: float) -> None:
     one = cut(squared(Side.RIGHT, overlap=overlap))
-    run = made_by(control, text_of(control, one), one)
+    run = run_written(control, text_of(control, one), one)
     codes = {one.code for one in judged_findings(judge_run(run))}
     assert run.stretches
     assert not codes & {"GOUGE", "LEAD-GOUGE", "WRONG-SIDE", "CROSSES", "UNCUT"}
@@ -221,7 +221,7 @@ def test_a_start_in_the_middle_of_a_wall_may_be_off_its_line_by_a_digit(control:
     if control == "threeblock" or (side is Side.LEFT and control in ("rosettacnc:nist", "rosettacnc:easy")):
         assert re.search("rule (B11-COLLINEAR|C6):", refused(control, cut(path)).text)
         return
-    run = made_by(control, text_of(control, cut(path)), cut(path))
+    run = run_written(control, text_of(control, cut(path)), cut(path))
     assert not {finding.code for finding in judged_findings(judge_run(run))} & {"GOUGE", "LEAD-GOUGE", "WRONG-SIDE"}
 
 
@@ -262,7 +262,7 @@ def test_klartext_without_compensation_names_only_the_axes_that_move() -> None:
 
 @pytest.mark.parametrize("control", FIRST_VARIANTS)
 def test_every_control_makes_the_moves_without_compensation(control: str) -> None:
-    run = made_by(control, text_of(control, uncompensated()), uncompensated())
+    run = run_written(control, text_of(control, uncompensated()), uncompensated())
     moves = list(run.moves)[-len(UNCOMPENSATED) :]
     assert [move.turn for move in moves] == [move.turn for move in UNCOMPENSATED]
     for move, expected in zip(moves, UNCOMPENSATED, strict=True):

@@ -58,7 +58,7 @@ def text_of(control: str, *cuts: PassToWrite) -> str:
     return found.text
 
 
-def made_by(control: str, text: str, *cuts: PassToWrite) -> ControlRun:
+def run_written(control: str, text: str, *cuts: PassToWrite) -> ControlRun:
     """What the control does with a program and the tools it counts on."""
     tools = (
         tools_of(cuts, STYLE_OF_CONTROL[control])

@@ -28,7 +28,7 @@ from tests.core.verify.shapes import circle, lines, moved, paths
 HALF = Arc((2.0, 0.0), (-2.0, 0.0), (0.0, 0.0), Turn.CCW)
 
 
-def one(piece: Piece) -> PieceArrays:
+def piece_array(piece: Piece) -> PieceArrays:
     return piece_arrays(Path.from_pieces([piece]))
 
 
@@ -60,21 +60,21 @@ def quiet() -> object:
     ],
 )
 def test_a_point_beside_a_piece(piece: Piece, point: complex, apart: float, share: float) -> None:
-    assert distance(one(piece), np.array((point,)))[0] == pytest.approx(apart, abs=1e-12)
-    assert foot(one(piece), np.array((point,)))[0] == pytest.approx(share, abs=1e-12)
+    assert distance(piece_array(piece), np.array((point,)))[0] == pytest.approx(apart, abs=1e-12)
+    assert foot(piece_array(piece), np.array((point,)))[0] == pytest.approx(share, abs=1e-12)
     elsewhere = piece_arrays(moved(Path.from_pieces([piece]), 0.0, (7.0, -3.0)))
     assert distance(elsewhere, np.array((point + 7 - 3j,)))[0] == pytest.approx(apart, abs=1e-12)
     assert foot(elsewhere, np.array((point + 7 - 3j,)))[0] == pytest.approx(share, abs=1e-12)
 
 
 def test_meetings_with_a_line_and_a_circle() -> None:
-    line = one(Line((0, 0), (10, 0)))
+    line = piece_array(Line((0, 0), (10, 0)))
     assert on_line(line, np.array((3 + 5j,)), np.array((1j,)))[0] == pytest.approx([0.3])
     assert on_circle(line, np.array((5 + 3j,)), np.array((5.0,)))[:, 0] == pytest.approx([0.1, 0.9])
     assert np.isnan(on_circle(line, np.array((5 + 6j,)), np.array((5.0,)))).all()
-    met = on_circle(one(HALF), np.array((0 + 2j,)), np.array((2.0,)))[:, 0]
+    met = on_circle(piece_array(HALF), np.array((0 + 2j,)), np.array((2.0,)))[:, 0]
     assert sorted(met) == pytest.approx([1 / 6, 5 / 6])
-    assert sorted(on_line(one(HALF), np.array((-9 + 1j,)), np.array((1.0 + 0j,)))[:, 0]) == pytest.approx(
+    assert sorted(on_line(piece_array(HALF), np.array((-9 + 1j,)), np.array((1.0 + 0j,)))[:, 0]) == pytest.approx(
         [1 / 6, 5 / 6]
     )
 
@@ -82,7 +82,7 @@ def test_meetings_with_a_line_and_a_circle() -> None:
 def test_a_meeting_near_a_touch_on_a_huge_arc_keeps_its_digits() -> None:
     """A circle about a point r off the arc that reaches d beyond a touch meets the arc sqrt(2 r d) on."""
     size, r, beyond = 1.0e5, 0.3, 1e-9
-    arc = one(Arc((size, 0.0), (0.0, size), (0.0, 0.0), Turn.CCW))
+    arc = piece_array(Arc((size, 0.0), (0.0, size), (0.0, 0.0), Turn.CCW))
     center = (size - r) * np.exp(0.5j)
     met = on_circle(arc, np.array((center,)), np.array((r + beyond,)))[:, 0] * arc.length
     assert met - 0.5 * size == pytest.approx([-sqrt(2 * r * beyond), sqrt(2 * r * beyond)], rel=0.1)

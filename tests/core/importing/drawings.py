@@ -119,7 +119,7 @@ def listed(data: bytes, **changes: Any) -> ContourList:
     return contours_of(drawing, replace(options, **changes))
 
 
-def made(name: str) -> bytes:
+def drawing_file(name: str) -> bytes:
     """A file of the made table."""
     if name == "d18-3000.dxf":
         return circle_of_lines(3000)

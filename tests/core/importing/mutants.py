@@ -15,7 +15,7 @@ from core.importing.contours import ImportOptions, contours_of
 from core.importing.drawing import Drawing, DrawingError, DrawingUnit
 from core.importing.dxf import read_dxf
 from core.importing.dxf_tags import BINARY_MARK
-from tests.core.importing.drawings import block, circle, dxf, made, square
+from tests.core.importing.drawings import block, circle, drawing_file, dxf, square
 
 TIME_LIMIT = 60.0
 
@@ -57,9 +57,9 @@ def originals() -> dict[str, bytes]:
     insert = [(0, "INSERT"), (8, "0"), (2, "B"), (10, 50), (20, 0), (30, 0), (50, 45)]
     document = full_document()
     return {
-        "bulges": made("d10-bulge.dxf"),
-        "layers": made("d14-layers.dxf"),
-        "mirrored": made("d12-mirrored-arc.dxf"),
+        "bulges": drawing_file("d10-bulge.dxf"),
+        "layers": drawing_file("d14-layers.dxf"),
+        "mirrored": drawing_file("d12-mirrored-arc.dxf"),
         "block": dxf(*square(0, 0, 10), insert, circle((5, 5), 2), more=block("B", *square(0, 0, 5))),
         "r2000": text_of(document),
         "binary": binary_of(document),

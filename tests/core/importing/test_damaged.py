@@ -8,7 +8,7 @@ import pytest
 
 from core.importing.drawing import DrawingError
 from core.importing.dxf import read_dxf
-from tests.core.importing.drawings import dxf, ellipse, line, made, square
+from tests.core.importing.drawings import drawing_file, dxf, ellipse, line, square
 from tests.core.importing.mutants import (
     TIME_LIMIT,
     full_document,
@@ -40,7 +40,7 @@ def test_a_mutant_is_refused_or_read_without_silent_loss(name: str) -> None:
 
 
 def test_a_file_cut_off_anywhere_is_refused() -> None:
-    data = made("d14-layers.dxf")
+    data = drawing_file("d14-layers.dxf")
     for length in range(60, len(data) - 6, 7):
         with pytest.raises(DrawingError):
             read_dxf(data[:length], "cut.dxf")

@@ -25,11 +25,11 @@ from tests.core.importing.drawings import (
     binary,
     block,
     circle,
+    drawing_file,
     dxf,
     ellipse,
     line,
     listed,
-    made,
     polyline,
     square,
 )
@@ -43,7 +43,7 @@ def read(data: bytes, *, damaged: bool = False) -> Drawing:
 
 @pytest.mark.parametrize("case", ACCEPTED, ids=lambda case: case["file"])
 def test_a_sample_drawing_has_the_contours_in_the_table(case: dict[str, float]) -> None:
-    listed_contours = listed(made(str(case["file"])))
+    listed_contours = listed(drawing_file(str(case["file"])))
     closed = [contour for contour in listed_contours.contours if contour.closed]
     assert (len(closed), len(listed_contours.contours) - len(closed)) == (case["closed"], case["open"])
     first = listed_contours.contours[0]
@@ -59,13 +59,13 @@ def test_a_sample_drawing_has_the_contours_in_the_table(case: dict[str, float]) 
 @pytest.mark.parametrize("case", [case for case in MADE if "refused" in case], ids=lambda case: case["file"])
 def test_a_bad_sample_drawing_is_refused_with_its_code(case: dict[str, str]) -> None:
     with pytest.raises(DrawingError) as refused:
-        read(made(case["file"]))
+        read(drawing_file(case["file"]))
     assert refused.value.code == case["refused"]
 
 
 @pytest.mark.parametrize(("unit", "text"), [(Unit.MM, "0.0000001"), (Unit.IN, "0.000000004")])
 def test_a_tiny_gap_is_shown_with_enough_digits(unit: Unit, text: str) -> None:
-    barely = replace(listed(made("d05-gap.dxf")), gap=1.1 * JOINED)
+    barely = replace(listed(drawing_file("d05-gap.dxf")), gap=1.1 * JOINED)
     assert f"largest gap {text}." in sentences(barely, unit)
 
 
@@ -76,15 +76,15 @@ def test_progress_is_reported_every_hundred_entities() -> None:
 
 
 def test_a_gap_within_the_tolerance_is_closed_and_reported() -> None:
-    assert listed(made("d05-gap.dxf")).gap == pytest.approx(0.008)
-    still_open = listed(made("d06-gap-open.dxf")).contours[0]
+    assert listed(drawing_file("d05-gap.dxf")).gap == pytest.approx(0.008)
+    still_open = listed(drawing_file("d06-gap-open.dxf")).contours[0]
     assert still_open.open_gap == pytest.approx(0.05)
     assert still_open.problems == ("gap 0.050 to its other end: TOLERANCE 0.050 would join it",)
-    assert listed(made("d06-gap-open.dxf"), tolerance=0.1).contours[0].closed
+    assert listed(drawing_file("d06-gap-open.dxf"), tolerance=0.1).contours[0].closed
 
 
 def test_a_file_that_breaks_off_is_refused_with_its_last_line() -> None:
-    data = made("d19-cut-off.dxf")
+    data = drawing_file("d19-cut-off.dxf")
     with pytest.raises(DrawingError) as refused:
         read(data)
     assert refused.value.text == "This file breaks off at line 40: 1 entity could be read."
@@ -103,7 +103,7 @@ def test_refusals_name_the_reason() -> None:
         ),
     ):
         with pytest.raises(DrawingError) as refused:
-            read(made(name))
+            read(drawing_file(name))
         assert refused.value.text == text
 
 
@@ -135,7 +135,7 @@ def test_a_drawing_without_contours_says_what_it_has() -> None:
 
 
 def test_the_circle_of_3000_lines_becomes_one_arc() -> None:
-    contour = fitted_contour(listed(made("d18-3000.dxf")).contours[0], 0.005)
+    contour = fitted_contour(listed(drawing_file("d18-3000.dxf")).contours[0], 0.005)
     assert fit_sentence(contour, Unit.IN) == "3000 lines -> 1 ARC, off by 0.0000"
     assert contour.circle == pytest.approx(50.0, abs=1e-4)
 
@@ -149,7 +149,7 @@ def test_insunits_gives_the_unit_or_none(code: int | None, unit: str | None) -> 
 
 
 def test_the_unit_question_shows_the_size_in_both_units() -> None:
-    text = unit_question(read(made("d04-nounits.dxf")))
+    text = unit_question(read(drawing_file("d04-nounits.dxf")))
     assert text == "The drawing names no unit. 40 x 30: as IN 40.0000 x 30.0000, as MM 40.000 x 30.000"
 
 
@@ -195,7 +195,7 @@ def test_a_drawing_in_feet_is_converted_to_millimeters() -> None:
 
 
 def test_a_mirrored_arc_is_mirrored() -> None:
-    contour = listed(made("d12-mirrored-arc.dxf")).contours[0]
+    contour = listed(drawing_file("d12-mirrored-arc.dxf")).contours[0]
     ends = {tuple(round(value, 6) + 0.0 for value in piece.start) for piece in contour.pieces}
     assert (40.0, 10.0) in ends
     assert (50.0, 20.0) in ends
@@ -394,12 +394,15 @@ def every_sentence(contours: ContourList) -> list[str]:
 
 
 def test_cleanup_is_reported() -> None:
-    assert every_sentence(listed(made("d07-duplicate.dxf"))) == ["2 equal pieces were dropped.", "largest gap none."]
-    assert every_sentence(listed(made("d08-overlap.dxf"))) == [
+    assert every_sentence(listed(drawing_file("d07-duplicate.dxf"))) == [
+        "2 equal pieces were dropped.",
+        "largest gap none.",
+    ]
+    assert every_sentence(listed(drawing_file("d08-overlap.dxf"))) == [
         "1 overlapping piece was joined.",
         "largest gap none.",
     ]
-    assert every_sentence(listed(made("d15-tiny.dxf"))) == [
+    assert every_sentence(listed(drawing_file("d15-tiny.dxf"))) == [
         "1 piece shorter than TOLERANCE 0.010 was dropped.",
         "largest gap 0.001.",
     ]
@@ -411,7 +414,7 @@ def test_cleanup_is_reported() -> None:
         "1 piece drawn twice was kept for two contours.",
         "largest gap none.",
     ]
-    assert "branch at X 40.000 Y 30.000: 2 ways." in every_sentence(listed(made("d09-branch.dxf")))
+    assert "branch at X 40.000 Y 30.000: 2 ways." in every_sentence(listed(drawing_file("d09-branch.dxf")))
 
 
 def spline(*points: tuple[float, float], fit: bool = False, closed: bool = False) -> bytes:

@@ -17,13 +17,13 @@ OUTER = polyline((0, 0.1), (1.9, 0.1), (1.9, 1))
 RING = polyline((0, 0), (1, 0), (1, 1), (0, 1), (0, 0))
 
 
-def shown(motion: CenterMove) -> tuple[str, float, float, float]:
+def posted_move(motion: CenterMove) -> tuple[str, float, float, float]:
     word = "G0" if motion.rapid else "G1" if motion.turn == Turn.NONE else "G3" if motion.turn == Turn.CCW else "G2"
     return word, *(round(value / INCH, 9) + 0.0 for value in (motion.x, motion.y, motion.z))  # type: ignore[return-value]  # four of them
 
 
-def all_shown(work: Job) -> list[tuple[str, float, float, float]]:
-    return [shown(motion) for each in passes(work) for motion in each.motions]
+def posted_moves(work: Job) -> list[tuple[str, float, float, float]]:
+    return [posted_move(motion) for each in passes(work) for motion in each.motions]
 
 
 def in_inches(values: tuple[float, ...]) -> list[float]:
@@ -70,7 +70,7 @@ def test_no_peck_is_deeper_than_peck_depth(start, depth, peck):
 
 
 def test_a_peck_retracts_returns_and_rapids_down_to_the_clearance():
-    assert all_shown(job(SLOT)) == [
+    assert posted_moves(job(SLOT)) == [
         ("G0", 0, 0, 1.0),
         ("G0", 0, 0, 0.1),
         ("G1", 0, 0, -0.1),
@@ -93,7 +93,7 @@ def test_a_peck_retracts_returns_and_rapids_down_to_the_clearance():
 
 
 def test_a_closed_contour_retracts_between_pecks():
-    ups = [motion for motion in all_shown(job(RING)) if motion[0] == "G0" and motion[3] == 0.1]
+    ups = [motion for motion in posted_moves(job(RING)) if motion[0] == "G0" and motion[3] == 0.1]
     assert len(ups) == 1 + 2 * 2
 
 
@@ -108,7 +108,7 @@ def test_blend_moves_take_the_feed_of_the_segment_next_to_them():
     work = job(SLOT, finish=(run,), peck_depth=0.0, floors=(Floor(1, -6.35, -6.35, 1.0), Floor(2, -6.35, -6.35, 2.0)))
     (only,) = passes(work)
     assert [motion.feed for motion in only.motions[3:-1]] == [1.0, 1.0, 2.0, 2.0]
-    assert shown(only.motions[0])[1:3] == (-1, 0)
+    assert posted_move(only.motions[0])[1:3] == (-1, 0)
 
 
 def summary(cut: Pass) -> tuple[int, float, float, bool]:
@@ -191,12 +191,12 @@ def ramp(path: Path, *ends: float, **changes: object) -> Job:
 
 def test_z_end_is_reached_evenly_along_a_line():
     work = ramp(SLOT, -0.25, -0.05, peck_depth=0.0)
-    assert all_shown(work)[2:-1] == [("G1", 0, 0, -0.25), ("G1", 2, 0, -0.25), ("G1", 2, 1, -0.05)]
+    assert posted_moves(work)[2:-1] == [("G1", 0, 0, -0.25), ("G1", 2, 0, -0.25), ("G1", 2, 1, -0.05)]
 
 
 def test_a_level_is_kept_until_the_floor_rises_to_it():
     work = ramp(polyline((0, 0), (2, 0)), 0.0, peck_depth=0.125 * INCH)
-    first, second = ([shown(motion) for motion in each.motions[:-1]] for each in passes(work))
+    first, second = ([posted_move(motion) for motion in each.motions[:-1]] for each in passes(work))
     assert first[2:] == [("G1", 0, 0, -0.125), ("G1", 1, 0, -0.125), ("G1", 2, 0, 0)]
     assert second[2:] == [("G1", 0, 0, -0.25), ("G1", 2, 0, 0)]
 
@@ -209,7 +209,7 @@ def test_a_helix_is_split_where_its_floor_rises_to_the_level():
     assert hypot(half.x + INCH, half.y) < 1e-9
     assert (half.z, rest.z) == (-0.125 * INCH, 0.0)
     assert half.turn is rest.turn is Turn.CCW
-    assert [shown(motion)[0] for motion in second.motions] == ["G0", "G0", "G1", "G3", "G0"]
+    assert [posted_move(motion)[0] for motion in second.motions] == ["G0", "G0", "G1", "G3", "G0"]
 
 
 def test_a_piece_shortened_at_a_corner_has_the_height_of_the_contour_there():
@@ -217,7 +217,7 @@ def test_a_piece_shortened_at_a_corner_has_the_height_of_the_contour_there():
     surface = polyline((0, 0), (2, 0), (2, 2))
     center = polyline((0, 0.5), (1.5, 0.5), (1.5, 2))
     work = ramp(surface, -0.05, -0.05, finish=(CenterPath(center),), peck_depth=0.0)
-    assert all_shown(work)[2:-1] == [
+    assert posted_moves(work)[2:-1] == [
         ("G1", 0, 0.5, -0.25),
         ("G1", 1.5, 0.5, -0.1),
         ("G1", 1.5, 0.5, -0.05),
@@ -231,7 +231,7 @@ def test_a_corner_arc_keeps_the_height_of_its_corner():
     first, last = polyline((0, -0.5), (1, -0.5))[0], polyline((1.5, 0), (1.5, 1))[0]
     center = Path.from_pieces((first, corner, last), (1.0, 1.5, 2.0))
     work = ramp(surface, -0.15, -0.05, finish=(CenterPath(center),), peck_depth=0.0)
-    assert [motion[3] for motion in all_shown(work)[2:-1]] == [-0.25, -0.15, -0.15, -0.05]
+    assert [motion[3] for motion in posted_moves(work)[2:-1]] == [-0.25, -0.15, -0.15, -0.05]
 
 
 def test_heights_on_an_arc_follow_its_angle():
@@ -283,7 +283,7 @@ def test_steps_between_pieces_of_the_path_are_reported_with_their_place():
 
 def test_a_safe_z_below_the_retract_clearance_is_raised_to_it():
     (only,) = passes(job(SLOT, peck_depth=0.0, safe_z=0.05 * INCH))
-    assert [shown(motion)[3] for motion in only.motions if motion.rapid] == [0.1, 0.1]
+    assert [posted_move(motion)[3] for motion in only.motions if motion.rapid] == [0.1, 0.1]
 
 
 def test_an_overlap_past_the_start_rises_to_a_higher_floor():

@@ -42,7 +42,7 @@ def _row(motion: CenterMove, scale: float) -> tuple[float, ...]:
     return (*(value / scale for value in (motion.x, motion.y, motion.z, *center)), float(motion.turn))
 
 
-def ran(text: str, folder: File) -> rs274.Ran:
+def run_on_rs274(text: str, folder: File) -> rs274.Ran:
     found = rs274.run(text, TOOLS, folder)
     assert found.accepted, f"{found.said}\n{text}"
     return found
@@ -50,7 +50,7 @@ def ran(text: str, folder: File) -> rs274.Ran:
 
 def same(one: Job, unit: Unit, folder: File) -> None:
     """The interpreter's moves are the passes' motions to four decimals."""
-    found, wanted = ran(posted(one, unit), folder).moves[1:], expected(one, unit)
+    found, wanted = run_on_rs274(posted(one, unit), folder).moves[1:], expected(one, unit)
     assert len(found) == len(wanted)
     for move, want in zip(found, wanted, strict=True):
         assert move[1:] == pytest.approx(want, abs=0.6e-4)
@@ -89,7 +89,7 @@ def test_a_finish_tool_with_blend_moves(unit, tmp_path):
         finish_tool=2,
         finish_z=0.254,
     )
-    wanted, found = expected(one, unit), ran(posted(one, unit), tmp_path)
+    wanted, found = expected(one, unit), run_on_rs274(posted(one, unit), tmp_path)
     change = next(index for index, call in enumerate(found.calls) if call.startswith("CHANGE_TOOL(2)"))
     assert found.calls[change - 1].startswith("STOP_SPINDLE")
     places = [move[1:] for move in found.moves]
@@ -120,7 +120,7 @@ def test_tiny_arcs_are_accepted_and_never_become_circles(sweep, unit, tmp_path):
             assert abs(length - piece.length / SCALE[unit]) <= 6 * digit * max(lines, 1), radius
     assert all(text.endswith("M30\n") for text in texts)
     # one after the other as one program
-    ran("".join(text.removesuffix("M30\n") for text in texts) + "M30\n", tmp_path)
+    run_on_rs274("".join(text.removesuffix("M30\n") for text in texts) + "M30\n", tmp_path)
 
 
 def measured(text: str) -> tuple[float, int]:
@@ -146,7 +146,7 @@ def _swept(start: Point, angle: float, radius: float, sweep: float) -> Arc:
 
 
 def test_hostile_names_are_harmless(tmp_path):
-    found = ran(posted(job(PARTS["lines"]), Unit.IN, name="x) G0 Z-5 (MSG, \n M2 % LOGOPEN,/tmp/x"), tmp_path)
+    found = run_on_rs274(posted(job(PARTS["lines"]), Unit.IN, name="x) G0 Z-5 (MSG, \n M2 % LOGOPEN,/tmp/x"), tmp_path)
     assert len(found.moves) == 1 + len(expected(job(PARTS["lines"]), Unit.IN))
 
 

@@ -197,7 +197,7 @@ def test_a_program_never_rapids_across_the_part_below_its_top(control: str) -> N
 @pytest.mark.parametrize("control", names())
 def test_an_over_run_posted_for_a_control_reads_back_as_an_over_run(control: str) -> None:
     """The blend arcs before the first element and after the last one are leads too."""
-    _, _, made = made_by(program(block(OVER_RUN_SQUARE, CutterComp.RIGHT), parameters=BLENDS), control)
+    _, _, made = posted_and_run(program(block(OVER_RUN_SQUARE, CutterComp.RIGHT), parameters=BLENDS), control)
     results = judge_run(made)
     codes = [finding.code for finding in judged_findings(results)]
     assert codes.count("OVER_RUN") == 1, codes
@@ -240,7 +240,7 @@ HELIX = replace(
 )
 
 
-def made_by(typed: Program, control: str) -> tuple[Derived, str, ControlRun]:
+def posted_and_run(typed: Program, control: str) -> tuple[Derived, str, ControlRun]:
     part = derived_program(typed)
     text = posted(part, control).text
     made = run(text.encode(), control, NO_TOOLS if control == "threeblock" else table(typed, text), typed.unit)
@@ -252,7 +252,7 @@ def made_by(typed: Program, control: str) -> tuple[Derived, str, ControlRun]:
 @pytest.mark.parametrize("control", FIRST_VARIANTS)
 @pytest.mark.parametrize("of", [climbing(), HELIX], ids=["lines", "helices"])
 def test_on_runs_on_the_contour_at_every_height(of: Block, control: str) -> None:
-    part, text, made = made_by(program(of), control)
+    part, text, made = posted_and_run(program(of), control)
     assert not {"G41", "G42", "RL", "RR"} & set(text.split())
     assert not made.stretches
     assert control == "threeblock" or "NOTHING" in text
@@ -266,7 +266,7 @@ def test_on_runs_on_the_contour_at_every_height(of: Block, control: str) -> None
 
 @pytest.mark.parametrize("control", FIRST_VARIANTS)
 def test_a_block_with_on_may_stand_between_blocks_with_compensation(control: str) -> None:
-    part, _, made = made_by(program(SQUARE, climbing(), SQUARE, parameters=BLENDS), control)
+    part, _, made = posted_and_run(program(SQUARE, climbing(), SQUARE, parameters=BLENDS), control)
     assert len(made.stretches) == 6
     assert [each.block.cutter_comp for each in part.blocks].count(CutterComp.ON) == 1
 

@@ -12,13 +12,13 @@ from core.verify.verdict import Approach
 WALLS = Path.from_pieces([Line((0, 0), (10, 0)), Line((10, 0), (10, 10))])
 
 
-def asked(surface: Path, centers: list[Path], radius: float = 1.0) -> Approach | None:
+def closest_approach(surface: Path, centers: list[Path], radius: float = 1.0) -> Approach | None:
     return judge_together(surface, Side.LEFT, radius, centers).closest
 
 
 def test_a_path_beside_a_corner_is_nearest_where_it_begins():
     path = Path.from_pieces([Line((0, 1), (9, 1)), Line((9, 1), (9, 10))])
-    found = asked(WALLS, [path])
+    found = closest_approach(WALLS, [path])
     assert found.distance == pytest.approx(1.0)
     assert found.at == pytest.approx((0, 1))
     assert found.surface_at == pytest.approx((0, 0))
@@ -40,7 +40,7 @@ def test_a_path_beside_a_corner_is_nearest_where_it_begins():
     ],
 )
 def test_the_place(path, at, surface_at, number):
-    found = asked(WALLS, [path])
+    found = closest_approach(WALLS, [path])
     assert found.at == pytest.approx(at)
     assert found.surface_at == pytest.approx(surface_at)
     assert found.surface_number == number
@@ -57,12 +57,12 @@ def test_the_deepest_gouge_is_the_nearest_place():
 
 def test_of_several_loops_the_nearest():
     far, near = Path.from_pieces([Line((0, 3), (5, 3))]), Path.from_pieces([Line((5, 2), (7, 2))])
-    assert asked(WALLS, [far, near]).at == pytest.approx((5, 2))
+    assert closest_approach(WALLS, [far, near]).at == pytest.approx((5, 2))
 
 
 def test_without_a_path_or_a_distance_there_is_no_place():
     path = Path.from_pieces([Line((0, 1), (9, 1))])
-    assert asked(WALLS, []) is None
-    assert asked(WALLS, [EMPTY]) is None
-    assert asked(EMPTY, [path]) is None
-    assert asked(WALLS, [path], nan) is None
+    assert closest_approach(WALLS, []) is None
+    assert closest_approach(WALLS, [EMPTY]) is None
+    assert closest_approach(EMPTY, [path]) is None
+    assert closest_approach(WALLS, [path], nan) is None

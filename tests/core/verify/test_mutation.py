@@ -11,21 +11,21 @@ from tests.core.verify.mutants import JUDGES, MUTATIONS, Table, tables
 
 
 @pytest.fixture(scope="module")
-def told() -> dict[str, Table]:
+def mutation_tables() -> dict[str, Table]:
     return tables(7, 4)
 
 
 @pytest.mark.parametrize("parts", list(JUDGES))
 @pytest.mark.parametrize("name", [mutation.__name__ for mutation in MUTATIONS])
-def test_none_is_missed_and_none_falsely_accused(told: dict[str, Table], parts: str, name: str) -> None:
-    row = told[parts][name]
+def test_none_is_missed_and_none_falsely_accused(mutation_tables: dict[str, Table], parts: str, name: str) -> None:
+    row = mutation_tables[parts][name]
     assert row.mutants > 0
     assert row.missed == 0
     assert row.falsely_accused == 0
 
 
-def test_the_mutants_are_worth_judging(told: dict[str, Table]) -> None:
-    for rows in told.values():
+def test_the_mutants_are_worth_judging(mutation_tables: dict[str, Table]) -> None:
+    for rows in mutation_tables.values():
         assert sum(row.gouging for row in rows.values()) > 20
         assert sum(row.leaving for row in rows.values()) > 20
         for name in ("shift_all", "flip_an_arc", "narrower", "on_the_other_side"):
