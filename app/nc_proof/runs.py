@@ -154,7 +154,7 @@ def read_tools(text: str) -> ToolTable:
     return ToolTable.of(*tools)
 
 
-def likely_control(text: NcText, usual: str = "") -> str:
+def likely_control(text: NcText, usual: str) -> str:
     """Return the likely control of a text: the one in cutcomp's header, Klartext, else the caller's `usual` one.
 
     Return LinuxCNC, whose rules are checked, if `usual` is not a control or is one that reads only Klartext.

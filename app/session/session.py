@@ -63,7 +63,7 @@ class Session:
         file: Path | None,
         title: str,
         *,
-        look_only: bool = False,
+        look_only: bool,
     ) -> Session:
         """Return a session with a history and the cursor where it was; in a new program, on its first field."""
         if field == SEGMENT_FIELD and not history.past:

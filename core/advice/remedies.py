@@ -83,9 +83,7 @@ def lookahead_without_blends(setup: CuttingSetup, progress: Progress = silent) -
     return None if row is None else row.value
 
 
-def larger_tool_without_blends(
-    setup: CuttingSetup, than: ToolFits | None, progress: Progress = silent
-) -> ToolFits | None:
+def larger_tool_without_blends(setup: CuttingSetup, than: ToolFits | None, progress: Progress) -> ToolFits | None:
     """Return the largest clean tool with BLEND OFFSET 0, or None.
 
     `than` is the tool that fits with blends: a tool less than `LARGER_BY` times as large is not offered.
@@ -161,14 +159,14 @@ def start_mid_side(setup: CuttingSetup, progress: Progress = silent, max_starts:
     return None
 
 
-def start_mid_side_without_blends(setup: CuttingSetup, progress: Progress = silent) -> StartMoved | None:
-    """Do the same without blend moves; None if there are none to leave out."""
+def start_mid_side_without_blends(setup: CuttingSetup, progress: Progress) -> StartMoved | None:
+    """Do the same as `start_mid_side` without blend moves; None if the path has none anyway."""
     if setup.blend <= 0.0:
         return None
     return start_mid_side(without_blends(setup), progress, MAX_STARTS_WITHOUT_BLENDS)
 
 
-def start_at_end(setup: CuttingSetup, progress: Progress = silent) -> StartMoved | None:
+def start_at_end(setup: CuttingSetup, progress: Progress) -> StartMoved | None:
     """Return the end of an open contour, if the contour is clean and closed when START is moved there.
 
     Only if START and the end share one coordinate, so that a single mistyped number explains the gap, and the first

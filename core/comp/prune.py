@@ -45,7 +45,7 @@ class _Left(NamedTuple):
     stands: Flags
 
 
-def prune(chain: RawChain, joints: Crossings, others: Crossings, *, last_wins: bool = False) -> Pruned:
+def prune(chain: RawChain, joints: Crossings, others: Crossings, *, last_wins: bool) -> Pruned:
     """Walk the chain, given the crossings at its joints and those of other pieces that the look-ahead tests.
 
     With `last_wins` a joint takes the last point along the earlier piece (closed contours of two segments).

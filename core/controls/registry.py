@@ -183,7 +183,7 @@ def _with_rest_of_contour(stopped: ControlRun, whole: ControlRun) -> ControlRun:
     return replace(stopped, stretches=(*stopped.stretches[:-1], longer))
 
 
-def run_with_tiny_tool(text: bytes, control: str, tools: ToolTable = NO_TOOLS) -> ControlRun | None:
+def run_with_tiny_tool(text: bytes, control: str, tools: ToolTable) -> ControlRun | None:
     """Rerun a stopped Klartext program with almost no radius, so that its stretches are the whole contour.
 
     None for another control, or if even that stops.
