@@ -35,7 +35,7 @@ class Crossings:
     def __len__(self) -> int:
         return len(self.a)
 
-    def chosen(self, rows: Flags | Rows) -> Crossings:
+    def take(self, rows: Flags | Rows) -> Crossings:
         """Return the crossings of these rows."""
         return Crossings(*(getattr(self, name)[rows] for name in self.__slots__))
 
@@ -50,7 +50,7 @@ class Candidates:
 
     def within(self, lookahead: int) -> Crossings:
         """Return the crossings of non-neighboring pieces that this look-ahead tests."""
-        return self.others.chosen(self.reach <= 2 * lookahead)
+        return self.others.take(self.reach <= 2 * lookahead)
 
     def count(self, lookahead: int) -> int:
         """Return how many of these this look-ahead tests; look-aheads with equal counts test the same crossings."""

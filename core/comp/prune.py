@@ -35,7 +35,7 @@ class Pruned:
     deleted: Deletions
 
 
-class _Left(NamedTuple):
+class _Remainder(NamedTuple):
     """The rest of the chain's m pieces: from `low` to `high` (m,) millimeters along them, `high` infinite if the end is
     untrimmed; the points `starts` (m,) where they start; `stands` (m,) is True for pieces that remain."""
 
@@ -52,10 +52,10 @@ def prune(chain: RawChain, joints: Crossings, others: Crossings, *, last_wins: b
     """
     again, wins = joints.b[1:] == joints.b[:-1], np.ones(len(joints), np.bool_)
     (wins[:-1] if last_wins else wins[1:])[again] = False
-    walk = _Walk(len(chain), joints.chosen(wins), joints, others)
-    walk.visit()
-    left, met = walk.left(chain), np.array(walk.met, np.intp)
-    path, bridges = _what_is_left(chain, left)
+    walk = _Walk(len(chain), joints.take(wins), joints, others)
+    walk.run()
+    rest, met = walk.remainder(chain), np.array(walk.met, np.intp)
+    path, bridges = _pruned_path(chain, rest)
     gone = np.frombuffer(walk.gone, np.bool_)
     return Pruned(path, chain.parts[bridges[1]] >= RawPart.BRIDGE, bridges[0], _deletions(chain, others, met, gone))
 
@@ -81,7 +81,7 @@ class _Walk:
         self.met: list[int] = []
         """Rows of `others` that deleted something, in order."""
 
-    def visit(self) -> None:
+    def run(self) -> None:
         """Test every piece's crossings and take the first one that lies on the remaining parts of both pieces.
 
         The earlier piece then ends there, the later one starts there, and everything between is deleted.  A point at
@@ -128,8 +128,8 @@ class _Walk:
             if piece < until and high[piece] < low[piece] - ON_PATH:
                 agenda.append(piece + 2)
 
-    def left(self, chain: RawChain) -> _Left:
-        """Return what the walk has left of the chain."""
+    def remainder(self, chain: RawChain) -> _Remainder:
+        """Return what the walk leaves of the chain."""
         raw_starts, bridged = as_complex(chain.raw.points)[:-1], np.array(self._bridged, np.intp)
         starts, stands = raw_starts.copy(), np.ones(len(chain), np.bool_)
         starts[self._trims.b], stands[self._trims.b - 1] = self._trims.points, False
@@ -137,14 +137,14 @@ class _Walk:
         starts[self._joints.b[self._rejoined]] = self._joints.points[self._rejoined]
         starts[self._others.b[self.met]] = self._others.points[self.met]
         stands &= ~np.frombuffer(self.gone, np.bool_)
-        return _Left(np.array(self._low), np.array(self._high), starts, stands)
+        return _Remainder(np.array(self._low), np.array(self._high), starts, stands)
 
 
-def _what_is_left(chain: RawChain, left: _Left) -> tuple[Path, tuple[Rows, Rows]]:
+def _pruned_path(chain: RawChain, rest: _Remainder) -> tuple[Path, tuple[Rows, Rows]]:
     """Return the path of the remaining pieces, the rows of the bridges among them, and the rows of all."""
-    alive = left.stands.nonzero()[0]
-    starts = np.append(left.starts[alive], as_complex(chain.raw.points)[-1:])
-    real = _not_slivers(chain, left, alive, starts)
+    alive = rest.stands.nonzero()[0]
+    starts = np.append(rest.starts[alive], as_complex(chain.raw.points)[-1:])
+    real = _not_slivers(chain, rest, alive, starts)
     alive, starts = alive[real], starts[np.append(real, True)]
     bridges = alive[chain.parts[alive] >= RawPart.BRIDGE]
     if not len(alive):
@@ -154,7 +154,7 @@ def _what_is_left(chain: RawChain, left: _Left) -> tuple[Path, tuple[Rows, Rows]
     return path, (bridges, alive)
 
 
-def _not_slivers(chain: RawChain, left: _Left, alive: Rows, starts: Points) -> Flags:
+def _not_slivers(chain: RawChain, rest: _Remainder, alive: Rows, starts: Points) -> Flags:
     """True for pieces that still have a length: an arc trimmed to a point must not become a full circle.
 
     An arc that remains a full turn within rounding gets equal ends in `starts`, and so stays a full circle.
@@ -162,7 +162,7 @@ def _not_slivers(chain: RawChain, left: _Left, alive: Rows, starts: Points) -> F
     real = np.abs(starts[1:] - starts[:-1]) > JOINED
     for row in (~real & (chain.raw.turns[alive] != 0)).nonzero()[0].tolist():
         piece = int(alive[row])
-        length = min(float(left.high[piece]), chain.raw[piece].length) - float(left.low[piece])
+        length = min(float(rest.high[piece]), chain.raw[piece].length) - float(rest.low[piece])
         if length > JOINED:
             starts[row + 1], real[row] = starts[row], True
     return real

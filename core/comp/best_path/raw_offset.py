@@ -58,10 +58,10 @@ class RawOffset:
         next_row: Flags = self.following == np.arange(1, len(self) + 1)
         return next_row
 
-    def kept(self, keep: Flags) -> RawOffset:
-        """Return the pieces marked in `keep` (m,); pieces whose following piece is dropped have none."""
-        columns = {field.name: getattr(self, field.name)[keep] for field in fields(self)}
-        return RawOffset(**{**columns, "following": renumbered(columns["following"], keep)})
+    def take(self, marked: Flags) -> RawOffset:
+        """Return the pieces that are `marked` (m,); pieces whose following piece is dropped have none."""
+        columns = {field.name: getattr(self, field.name)[marked] for field in fields(self)}
+        return RawOffset(**{**columns, "following": renumbered(columns["following"], marked)})
 
     def directions(self, rows: Rows, points: Points) -> Points:
         """Return the (k,) directions of travel of pieces at points on them, not of unit length."""
@@ -260,7 +260,7 @@ def _smoothed(chain: Untrimmed, radius: float) -> Untrimmed:
     keep = np.ones(len(raw), np.bool_)
     keep[between[between >= 0]] = False
     raw = replace(raw, start=start, end=end, lengths=size, following=following, smooth=smooth, gaps=missed)
-    return Untrimmed(raw.kept(keep), renumbered(order[keep], keep), inside[keep], chain.corner[keep], chain.vertices)
+    return Untrimmed(raw.take(keep), renumbered(order[keep], keep), inside[keep], chain.corner[keep], chain.vertices)
 
 
 def _near_tangent(chain: Untrimmed) -> tuple[Rows, Rows, Rows]:

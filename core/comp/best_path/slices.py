@@ -27,7 +27,7 @@ MAX_PAIRS: Final = 8_000_000
 """More pairs of near pieces than any real part has: such a scribble is refused."""
 
 MAX_INTERSECTIONS: Final = 2_000_000
-"""More meetings than any real part has, likewise."""
+"""More meetings than any real part has: such a scribble is refused too."""
 
 _ALMOST_FULL_TURN: Final = 6.28
 """Radians, a little less than a full turn."""

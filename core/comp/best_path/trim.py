@@ -24,8 +24,8 @@ The cuts thus end well away from every place where the path may turn, and are ne
 
 
 @dataclass(frozen=True, eq=False, slots=True)
-class _Left:
-    """The rest of the m pieces, from `low` to `high` (m,) mm along them; nothing is left if high is not above low."""
+class _Remainder:
+    """The rest of the m pieces, from `low` to `high` (m,) mm along them; nothing remains if high is not above low."""
 
     low: Floats
     high: Floats
@@ -34,18 +34,18 @@ class _Left:
 def trimmed(chain: Untrimmed, sign: int, radius: float) -> RawOffset:
     """Return the raw offset without the parts certainly nearer to the surface than `radius`; `sign` +1 is LEFT."""
     raw = chain.raw
-    left = _Left(np.zeros(len(raw)), raw.lengths.copy())
-    corners, meets = _mitered(chain, left, sign, radius)
-    before = _Left(left.low.copy(), left.high.copy())
-    _cut_inside(chain, left, radius)
-    cut_low, cut_high = left.low > before.low, left.high < before.high
+    rest = _Remainder(np.zeros(len(raw)), raw.lengths.copy())
+    corners, meets = _mitered(chain, rest, sign, radius)
+    before = _Remainder(rest.low.copy(), rest.high.copy())
+    _cut_inside(chain, rest, radius)
+    cut_low, cut_high = rest.low > before.low, rest.high < before.high
     if not len(corners) and not cut_low.any() and not cut_high.any():
         return raw
-    return _rebuilt(chain, left, (corners, meets), cut_low, cut_high)
+    return _rebuilt(chain, rest, (corners, meets), cut_low, cut_high)
 
 
-def _mitered(chain: Untrimmed, left: _Left, sign: int, radius: float) -> tuple[Rows, Points]:
-    """Cut `left` at inside corners of two lines that meet; return the rows of the first lines and the points.
+def _mitered(chain: Untrimmed, rest: _Remainder, sign: int, radius: float) -> tuple[Rows, Points]:
+    """Cut `rest` at inside corners of two lines that meet; return the rows of the first lines and the points.
 
     If three offset lines meet in nearly one place, the corner is left to the general rule.
     """
@@ -60,18 +60,18 @@ def _mitered(chain: Untrimmed, left: _Left, sign: int, radius: float) -> tuple[R
     fits = (short > 0.0) & (short <= room)
     rows, after, unit = rows[fits], after[fits], unit[fits]
     short = short[fits] / (1.0 + bend.real[fits])
-    left.high[rows] -= short
-    left.low[after] = short
-    crowded = np.abs(left.high - left.low) <= CROWDED
+    rest.high[rows] -= short
+    rest.low[after] = short
+    crowded = np.abs(rest.high - rest.low) <= CROWDED
     lost = crowded[rows] | crowded[after]
     if lost.any():
-        left.high[rows[lost]], left.low[after[lost]] = raw.lengths[rows[lost]], 0.0
+        rest.high[rows[lost]], rest.low[after[lost]] = raw.lengths[rows[lost]], 0.0
         rows, unit, short = rows[~lost], unit[~lost], short[~lost]
     return rows, raw.end[rows] - short * unit
 
 
-def _cut_inside(chain: Untrimmed, left: _Left, radius: float) -> None:
-    """Cut from `left` what lies in circles about vertices ahead and back, at growing distance until none is near."""
+def _cut_inside(chain: Untrimmed, rest: _Remainder, radius: float) -> None:
+    """Cut from `rest` what lies in circles about vertices ahead and back, at growing distance until none is near."""
     limit = radius - max(_INSIDE * radius, 2.0 * CROWDED)
     step, near = 1, limit > 0.0
     while near and step < len(chain.vertices):
@@ -81,22 +81,22 @@ def _cut_inside(chain: Untrimmed, left: _Left, radius: float) -> None:
             known = np.minimum(np.maximum(rows, 0), len(chain.vertices) - 1)
             spots = chain.vertices[known]
             near |= bool(((np.abs(spots - chain.raw.start) < 2.0 * radius) & (known == rows)).any())
-            _cut(chain.raw, left, spots, limit)
+            _cut(chain.raw, rest, spots, limit)
         step *= 2
 
 
-def _cut(raw: RawOffset, left: _Left, spots: Points, limit: float) -> None:
+def _cut(raw: RawOffset, rest: _Remainder, spots: Points, limit: float) -> None:
     """Cut off both ends of all pieces where they are within `limit` of their spots."""
-    near = (np.abs(spots - raw.start) < limit + raw.lengths) & (left.low < left.high)
+    near = (np.abs(spots - raw.start) < limit + raw.lengths) & (rest.low < rest.high)
     for kind, within in ((raw.turns == 0, _within_lines), (raw.turns != 0, _within_arcs)):
         rows = (near & kind).nonzero()[0]
         if not len(rows):
             continue
         begin, end = within(raw, rows, spots[rows], limit)
-        low, high = left.low[rows], left.high[rows]
+        low, high = rest.low[rows], rest.high[rows]
         at_low, at_high = (begin <= low) & (end > low), (end >= high) & (begin < high)
-        left.low[rows[at_low]] = end[at_low]
-        left.high[rows[at_high]] = begin[at_high]
+        rest.low[rows[at_low]] = end[at_low]
+        rest.high[rows[at_high]] = begin[at_high]
 
 
 def _within_lines(raw: RawOffset, rows: Rows, spots: Points, limit: float) -> tuple[Floats, Floats]:
@@ -122,23 +122,25 @@ def _within_arcs(raw: RawOffset, rows: Rows, spots: Points, limit: float) -> tup
     return (angle - half) * radius, (angle + half) * radius
 
 
-def _rebuilt(chain: Untrimmed, left: _Left, corners: tuple[Rows, Points], cut_low: Flags, cut_high: Flags) -> RawOffset:
-    """Rebuild the raw offset: shorten pieces, drop those with nothing left, and mark their neighbors' ends blunt."""
+def _rebuilt(
+    chain: Untrimmed, rest: _Remainder, corners: tuple[Rows, Points], cut_low: Flags, cut_high: Flags
+) -> RawOffset:
+    """Shorten the raw pieces, drop those of which nothing remains, and mark their neighbors' ends as blunt."""
     raw, (rows, meets) = chain.raw, corners
     following, smooth = raw.following.copy(), raw.smooth.copy()
     following[rows], smooth[rows] = chain.order[rows], True
-    gone = left.high - left.low <= np.where(cut_low | cut_high, JOINED, -CROWDED)
+    gone = rest.high - rest.low <= np.where(cut_low | cut_high, JOINED, -CROWDED)
     start, end = raw.start.copy(), raw.end.copy()
     start[chain.order[rows]], end[rows] = meets, meets
-    start[cut_low] = raw.at(cut_low.nonzero()[0], left.low[cut_low])
-    end[cut_high] = raw.at(cut_high.nonzero()[0], left.high[cut_high])
+    start[cut_low] = raw.at(cut_low.nonzero()[0], rest.low[cut_low])
+    end[cut_high] = raw.at(cut_high.nonzero()[0], rest.high[cut_high])
     joined = (following >= 0).nonzero()[0]
     after = following[joined]
     apart = gone[joined] | cut_high[joined] | gone[after] | cut_low[after]
     blunt_start, blunt_end = cut_low, cut_high
     blunt_end[joined[apart]], blunt_start[after[apart]] = True, True
     following[joined[apart]], smooth[joined[apart]] = -1, False
-    size = left.high - left.low
+    size = rest.high - rest.low
     raw = replace(raw, start=start, end=end, lengths=size, following=following, smooth=smooth)
     raw = replace(raw, blunt_start=blunt_start, blunt_end=blunt_end)
-    return raw.kept(~gone) if gone.any() else raw
+    return raw.take(~gone) if gone.any() else raw
