@@ -13,27 +13,26 @@ from core.geometry.piece import Point
 
 @dataclass(frozen=True, slots=True)
 class Gouge:
-    """One stretch of the center path nearer to the surface than the radius, reported by its deepest point.
+    """A part of the center path nearer to the surface than the radius, reported by its deepest point.
 
-    `depth` is how far the cutter reaches into the part there: the radius less the center's distance from the surface,
-    or the radius plus that distance if the center itself is on the part's side.  The stretch ends where the center is
-    the radius away again.  If that is on the part's side, the whole cutter is inside the part: the depth is then twice
-    the radius however far the path goes on, and `wrong_side` lists the moves.  An open contour has no part's side where
-    one of its ends is the nearest point; where its arms contradict each other, a move's side is tested at 63 places
-    between any two at which it meets a wall.  If a contour crosses itself, the sides of its walls contradict each
-    other: only distances count then, and no depth is larger than the radius.
-
-    `at` is the center there, `surface_at` the surface point it cuts into; `path_piece` is the row of the judged
-    path, `path_number` its number, `surface_number` the contour's segment; `extent` the stretch's length.
+    It ends where the center is the radius away again.  VERDICT.md, "Depth of a gouge", says how the depth is found
+    where the center itself is on the part's side.
     """
 
     depth: float
+    """How far the edge of the cutter reaches into the part, at most twice the radius."""
     at: Point
+    """The center of the cutter at the deepest point."""
     surface_at: Point
+    """The point of the surface that it cuts into there."""
     path_piece: int
+    """The row of the judged path's piece with the deepest point."""
     path_number: float
+    """The number of that piece."""
     surface_number: float
+    """The contour's segment that it cuts into."""
     extent: float
+    """The length of the gouging part of the path."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -51,20 +50,23 @@ class Approach:
 
 @dataclass(frozen=True, slots=True)
 class Uncut:
-    """One stretch of the surface that the cutter does not reach: the segments it begins and ends on, and its ends.
-
-    `thickness` is the largest distance from the stretch to the swept area, reached at `thickest`.  `area` lies between
-    the two, in square millimeters; it is None if the stretch ends at the contour's end, or if the cutter travels
-    between its contacts with the stretch's ends."""
+    """A stretch of the surface that the cutter does not reach from any point of its path."""
 
     first_number: float
+    """The segment on which it begins, at `start`."""
     last_number: float
+    """The segment on which it ends, at `end`."""
     start: Point
     end: Point
     length: float
     thickness: float
+    """The largest distance from the stretch to the area that the cutter sweeps, reached at `thickest`."""
     thickest: Point
     area: float | None = None
+    """Square millimeters between the stretch and the swept area.
+
+    None if the stretch ends at the contour's end, or if the cutter does not touch both of its ends from one place.
+    """
 
 
 @dataclass(frozen=True, slots=True)
@@ -79,54 +81,59 @@ class UnevenArc:
 
 @dataclass(frozen=True, slots=True)
 class OverRun:
-    """The point `at` where a contour's first and last element meet, and the lengths of the leads before and after it.
-
-    `first_number` and `last_number` are those of the pieces that meet.  `doubtful` marks a single lead that takes so
-    large a part of its segment that it may be a wall: the contour's other end, START or the last one, lies on that
-    segment and may be mistyped.  `lead_numbers` are those of all leads, if they are so long that they may be walls.
-    """
+    """The point `at` where a contour's first and last element meet, with the leads beyond it."""
 
     at: Point
     lead_in: float
+    """The length of the lead before that point."""
     lead_out: float
+    """The length of the lead after it."""
     first_number: float
+    """The number of the first of the two pieces that meet."""
     last_number: float
+    """The number of the last of them."""
     doubtful: bool
+    """A single lead is so large a part of its segment that it may be a wall: START or the last end may be mistyped."""
     lead_numbers: tuple[float, ...] = ()
+    """The numbers of all leads if they are so long that they may be walls."""
 
 
 @dataclass(frozen=True, eq=False, slots=True)
 class Verdict:
-    """The effects of one center path on one surface.
-
-    `closest` is where the path comes nearest to the surface, None for an empty path; gouges are deepest first, uncut
-    stretches in the contour's order.  `wrong_side` lists rows of the path that are somewhere inside the part, on the
-    part's side of the nearest wall, by more than GOUGE.  The list is complete for a closed contour that does not cross
-    itself; for any other it has the rows that meet a wall, and those inside the part at their ends, in their middles or
-    where they gouge most.
-    `loose` are rows that may be farther from the surface than the radius somewhere, lead moves among them, and
-    `backwards` rows that run against all walls they touch.
-    `crossing_at` is the first place where the surface crosses or touches itself.  There is an `over_run` if only its
-    first and its last element meet, and the ends beyond that point are clear of the part: these ends count as lead-in
-    and lead-out, not as surface.  `radius_slack` is the most that the uneven radii of arcs add to the tolerance.
-    If `judged` is False and `clearance` NaN, nothing is known: a coordinate or the radius is not a length that a
-    machine could have, or an arc, `uneven_arc`, has two clearly different radii.
-    """
+    """The effects of one center path on one surface.  If it is not `judged`, no other value means anything."""
 
     radius: float
     closest: Approach | None
+    """Where the path comes nearest to the surface; None for an empty path."""
     gouges: tuple[Gouge, ...]
+    """The deepest first."""
     uncut: tuple[Uncut, ...]
+    """In the contour's order."""
     surface_length: float
     crosses_itself: bool
     wrong_side: tuple[int, ...] = ()
+    """Rows of the path that are somewhere on the part's side of the nearest wall, by more than GOUGE.
+
+    Complete for a closed contour that does not cross itself.  For any other contour it has the rows that meet a wall,
+    and those that are inside the part at their ends, in their middles or where they gouge most.
+    """
     loose: tuple[int, ...] = ()
+    """Rows that may be farther from the surface than the radius somewhere, lead moves among them."""
     backwards: tuple[int, ...] = ()
+    """Rows that run against the direction of all walls that they touch."""
     crossing_at: Point | None = None
+    """The first place where the surface crosses or touches itself."""
     over_run: OverRun | None = None
+    """Set if only the first and the last element meet, and the ends beyond that point are clear of the part.
+
+    These ends then count as leads, not as surface.
+    """
     radius_slack: float = 0.0
+    """The most that the uneven radii of arcs add to the tolerance."""
     judged: bool = True
+    """False if a coordinate or the radius is not a length that a machine could have, or if there is an `uneven_arc`."""
     uneven_arc: UnevenArc | None = None
+    """An arc with two clearly different radii, which cannot be judged."""
 
     @property
     def over_run_at(self) -> Point | None:
