@@ -17,7 +17,7 @@ from app.screens.base import BaseScreen
 from app.screens.dialogs import Phrase
 from app.screens.entry_screen import EntryScreen
 from app.session.formats import counted
-from app.session.guide import POST_NAME, WHOLE_WAY
+from app.session.guide import GUIDE_COMPLETED, POST_NAME
 from app.session.messages import Sentence, Tone
 from app.session.posting import CENTER_PATH, OVERRIDE_PHRASES, NcText, choices, nc_text, objections
 from app.session.session import Session
@@ -213,4 +213,4 @@ class PostScreen(EntryScreen):
         what = "the center path" if choice == CENTER_PATH else f"for {display_name(choice)}"
         self.notify(f"Posted {what}: {where}, {lines} lines.", timeout=5)
         self.app.call_later(self.app.run_action, "app.back")
-        self.app.call_later(self.host.end_guide, f"Posted. {WHOLE_WAY}")
+        self.app.call_later(self.host.end_guide, f"Posted. {GUIDE_COMPLETED}")

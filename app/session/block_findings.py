@@ -41,8 +41,8 @@ REMEDY_CODES: Final = frozenset(
     {"BLENDLESS", "START_MID_SIDE", "START_BLENDLESS", "START_AT_END", "TOOL_FITS", "TOOL_BLENDLESS"}
 )
 """Advice that has been tried and gives a clean path."""
-MENDED_ON_START: Final = {"CAL_NOT_CLEAN": "lookahead", "START_MID_SIDE": "x_start", "START_BLENDLESS": "x_start"}
-"""Advice that names a segment but is carried out on START, and the field of START for it."""
+START_FIELD_OF_ADVICE: Final = {"CAL_NOT_CLEAN": "lookahead", "START_MID_SIDE": "x_start", "START_BLENDLESS": "x_start"}
+"""The field of START in which advice is carried out, by the code of the advice, whichever segment it names."""
 _KINDS: Final = {Severity.ERROR: Kind.ERROR, Severity.WARNING: Kind.WARNING, Severity.INFO: Kind.NOTE}
 
 
@@ -75,8 +75,8 @@ def _entry(finding: Finding, unit: Unit) -> Entry:
     where = _where(finding)
     title = _title(finding, unit)
     area, field = finding.area or 0.0, finding.field
-    if finding.code in MENDED_ON_START:
-        segment, field = 0, MENDED_ON_START[finding.code]
+    if finding.code in START_FIELD_OF_ADVICE:
+        segment, field = 0, START_FIELD_OF_ADVICE[finding.code]
     return Entry(_kind(finding), title, where, sentence(finding, unit), finding.at, segment, field, area)
 
 
@@ -93,7 +93,7 @@ def _where(finding: Finding) -> str:
 def remedy(table: Table | None, field: str, unit: Unit) -> str:
     """Return the first note about a field of START, such as a better value; empty if there is none."""
     for note in () if table is None else table.notes:
-        if field == (note.field or MENDED_ON_START.get(note.code)):
+        if field == (note.field or START_FIELD_OF_ADVICE.get(note.code)):
             return sentence(note, unit)
     return ""
 

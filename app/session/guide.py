@@ -20,7 +20,7 @@ EXAMPLE_CORNERS: Final = (("0", "0"), ("0", "1"), ("2", "1"), ("2", "0"), ("1", 
 SAVE_NAME: Final = "Type a name such as plate, then Enter. Without a folder it goes where you started the program."
 POST_NAME: Final = "Enter writes the NC file under the name that stands there."
 NOT_NEEDED: Final = "This screen is not needed now: Ctrl+K, then 8 goes back."
-WHOLE_WAY: Final = "Typed, checked, saved, posted: that is the whole way."
+GUIDE_COMPLETED: Final = "Typed, checked, saved, posted: that is the whole way."
 
 
 @dataclass(frozen=True, slots=True)
