@@ -26,7 +26,7 @@ from app.documents.files import (
     write_data,
 )
 from app.documents.journal import Head, Journal, Kind, beginning, continuing, records_between, same_edits
-from app.documents.journal_file import JournalFile, journal_path, new_path, set_aside, why_aside
+from app.documents.journal_file import JournalFile, journal_path, new_path, reason_set_aside, set_aside
 from app.documents.lock import Lock, Owner, alive, held_by, myself, release, take, take_over, taken_by
 from app.documents.paths import (
     as_program,
@@ -325,7 +325,7 @@ class DocumentService:
         """Return the question about unsaved work, a sentence for users who are not asked, or None if nothing is new."""
         today = self.clock()
         if isinstance(left, Unreadable):
-            if why_aside(path) and not left.ours:
+            if reason_set_aside(path) and not left.ours:
                 return _kept_for(left.user, left.time, path, today)
             return questions.unreadable_work(document, path, left, today)
         living, mine = alive(left.head.owner), self._is_mine(path, left)
@@ -334,7 +334,7 @@ class DocumentService:
                 with suppress(OSError):
                     path.unlink()
             return None
-        if not chosen and why_aside(path) and not mine:
+        if not chosen and reason_set_aside(path) and not mine:
             return _kept_for(left.head.owner.user, left.time, path, today)
         copy = chosen and not wants_answer(path)
         return questions.unsaved_work(document, left, mine=mine, me=self.me, living=living, chosen=copy, today=today)
@@ -404,7 +404,7 @@ class DocumentService:
 
     def _move_aside(self, path: Path, journal: Journal) -> Path:
         """Set a journal aside: as "kept" or "theirs" if its author can be asked about it later, else as "discarded"."""
-        if why_aside(path):
+        if reason_set_aside(path):
             return path
         try:
             if not self._is_mine(path, journal):

@@ -120,7 +120,7 @@ class JournalFile:
         if self.handle is None:
             return None
         status = os.fstat(self.handle)
-        for path in chain((self.path,), asides(self.path)):
+        for path in chain((self.path,), journals_set_aside(self.path)):
             with suppress(OSError):
                 if os.path.samestat(path.stat(), status):
                     return path
@@ -171,9 +171,9 @@ def new_path(path: Path) -> Path:
     return path.with_name(f"{path.name}.new")
 
 
-def asides(path: Path) -> Iterator[Path]:
+def journals_set_aside(path: Path) -> Iterator[Path]:
     """Yield the journals that were set aside from a place, newest first; the folder is read at the first one."""
-    prefix, new = f"{place_of(path).name}.", new_path(place_of(path)).name
+    prefix, new = f"{original_path(path).name}.", new_path(original_path(path)).name
     dated = list[tuple[int, Path]]()
     with suppress(OSError), os.scandir(path.parent) as entries:
         for entry in entries:
@@ -183,20 +183,20 @@ def asides(path: Path) -> Iterator[Path]:
     yield from (path for _, path in sorted(dated, reverse=True))
 
 
-def place_of(path: Path) -> Path:
+def original_path(path: Path) -> Path:
     """Return the original path of a journal that was set aside; the path itself if it was not."""
     prefix, suffix, _ = path.name.partition(JOURNAL_SUFFIX)
     return path.with_name(prefix + suffix)
 
 
-def why_aside(path: Path) -> str:
+def reason_set_aside(path: Path) -> str:
     """Return why a journal was set aside, as `set_aside` recorded it; empty if it was not."""
     return path.name.partition(f"{JOURNAL_SUFFIX}.")[2].rpartition("-")[0]
 
 
 def set_aside(path: Path, why: str) -> Path:
-    """Rename a journal and return its new path, from which `why_aside` and `place_of` read."""
-    place, number = place_of(path), 1
+    """Rename a journal and return its new path, from which `reason_set_aside` and `original_path` read."""
+    place, number = original_path(path), 1
     while os.path.lexists(aside := place.with_name(f"{place.name}.{why}-{number}")):
         number += 1
     path.rename(aside)

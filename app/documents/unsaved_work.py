@@ -16,7 +16,14 @@ from typing import Final
 from app.documents import times
 from app.documents.files import NotAFileError, read_file
 from app.documents.journal import MAX_JOURNAL_BYTES, Journal, Kind, owner_in_another_version, read_journal
-from app.documents.journal_file import JOURNAL_SUFFIX, JournalFile, asides, journal_path, place_of, why_aside
+from app.documents.journal_file import (
+    JOURNAL_SUFFIX,
+    JournalFile,
+    journal_path,
+    journals_set_aside,
+    original_path,
+    reason_set_aside,
+)
 from app.documents.lock import Owner, alive
 from core.units import plain
 
@@ -87,7 +94,7 @@ class Unreadable:
 
 
 def unsaved_work_on(file: Path | None, kind: Kind, state: Path) -> Iterator[tuple[Path, Journal | Unreadable]]:
-    """Yield the unsaved work on a file, or work without a name, of every user; asides come last, newest first.
+    """Yield the unsaved work on a file, or work without a name, of every user; those set aside come last, newest first.
 
     Skip what was discarded, and what was set aside from a running process unless that wrote more and has died.
     """
@@ -97,7 +104,7 @@ def unsaved_work_on(file: Path | None, kind: Kind, state: Path) -> Iterator[tupl
             continue
         owner = left.owner if isinstance(left, Unreadable) else left.head.owner
         living = owner is not None and alive(owner)
-        if not (living and (file is None or why_aside(path))):
+        if not (living and (file is None or reason_set_aside(path))):
             yield path, left
 
 
@@ -106,7 +113,7 @@ def work_of_dead_processes(file: Path, kind: Kind, state: Path, user: str) -> It
     for path, left in unsaved_work_on(file, kind, state):
         if isinstance(left, Unreadable) or alive(left.head.owner):
             continue
-        if not why_aside(path) or of_user(left.head.owner, path, state, user):
+        if not reason_set_aside(path) or of_user(left.head.owner, path, state, user):
             yield path, left
 
 
@@ -122,16 +129,16 @@ def journals_of(file: Path, state: Path) -> Iterator[Path]:
     if any(path.name.startswith(prefix) for path in _entries(state)):
         candidates.append(elsewhere(file, state))
     yield from (path for path in candidates if os.path.lexists(path))
-    yield from (path for place in candidates for path in asides(place) if _still_wants_answer(path))
+    yield from (path for place in candidates for path in journals_set_aside(place) if _still_wants_answer(path))
 
 
 def wants_answer(path: Path) -> bool:
     """True if a journal is offered by itself; False if it is a copy that is only listed."""
-    return why_aside(path).partition("-")[0] in ("", "kept", "theirs")
+    return reason_set_aside(path).partition("-")[0] in ("", "kept", "theirs")
 
 
 def _still_wants_answer(path: Path) -> bool:
-    why, _, length = why_aside(path).partition("-at-")
+    why, _, length = reason_set_aside(path).partition("-at-")
     if why == "kept" or not length.isdecimal():
         return wants_answer(path)
     with suppress(OSError):
@@ -263,7 +270,7 @@ def file_of_copy(path: Path, folder: Path) -> Path | None:
             return Path(name)
         return None if _file_name(path) == UNNAMED_PROGRAM else folder / _file_name(path)
     adjacent = path.with_name(Path(name).name if name is not None else _file_name(path))
-    return adjacent if journal_path(adjacent) == place_of(path.resolve()) else path.with_name(_file_name(path))
+    return adjacent if journal_path(adjacent) == original_path(path.resolve()) else path.with_name(_file_name(path))
 
 
 def _set_aside_in(folder: Path, state: Path) -> Iterator[tuple[int, Path]]:
@@ -275,7 +282,7 @@ def _set_aside_in(folder: Path, state: Path) -> Iterator[tuple[int, Path]]:
 
 
 def _why(path: Path) -> str:
-    return why_aside(path).partition("-")[0]
+    return reason_set_aside(path).partition("-")[0]
 
 
 def _is_listed(path: Path, folder: Path, state: Path) -> bool:
@@ -284,13 +291,13 @@ def _is_listed(path: Path, folder: Path, state: Path) -> bool:
     The name alone decides, so that listing reads no journal; a name whose end is cut may be a program's.
     """
     name = _file_name(path)
-    here = path.name.startswith(".") or place_of(path) == elsewhere(folder / name, state)
+    here = path.name.startswith(".") or original_path(path) == elsewhere(folder / name, state)
     return here or name == UNNAMED_PROGRAM or name.lower().endswith(".toml") or len(name) >= MAX_NAME_CHARACTERS
 
 
 def _file_name(path: Path) -> str:
     """Return the name of the file that a journal is about, possibly cut, from the journal's own name."""
-    name = place_of(path).name.removesuffix(JOURNAL_SUFFIX)
+    name = original_path(path).name.removesuffix(JOURNAL_SUFFIX)
     if name.startswith("."):
         return name[1:]
     return UNNAMED_PROGRAM if name.startswith("unnamed-") else name.rpartition("-")[0]

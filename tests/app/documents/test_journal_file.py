@@ -15,12 +15,12 @@ from app.documents.journal import records_between as between
 from app.documents.journal_file import (
     JournalFile,
     Record,
-    asides,
     journal_path,
+    journals_set_aside,
     new_path,
-    place_of,
+    original_path,
+    reason_set_aside,
     set_aside,
-    why_aside,
 )
 from core.program.history import History
 from tests.app.documents.test_journal import HEAD, PART, PLACE, STEPS, TIME, EditStep, read, typed
@@ -160,12 +160,12 @@ def test_the_name_of_a_set_aside_journal_gives_its_place_and_reason(tmp_path: Pa
     path = journal_path(tmp_path / "a.b-c.toml")
     path.write_text("x")
     first = set_aside(path, "kept")
-    assert (place_of(first), why_aside(first)) == (path, "kept")
+    assert (original_path(first), reason_set_aside(first)) == (path, "kept")
     second = set_aside(first, "theirs-2025-03-04-060500-at-12")
-    assert (place_of(second), why_aside(second)) == (path, "theirs-2025-03-04-060500-at-12")
-    assert (place_of(path), why_aside(path)) == (path, "")
+    assert (original_path(second), reason_set_aside(second)) == (path, "theirs-2025-03-04-060500-at-12")
+    assert (original_path(path), reason_set_aside(path)) == (path, "")
     new_path(path).write_text("half of one")
-    assert list(asides(path)) == [second]
+    assert list(journals_set_aside(path)) == [second]
 
 
 def test_a_journal_has_the_permissions_of_its_program(tmp_path: Path) -> None:
