@@ -41,7 +41,7 @@ if TYPE_CHECKING:
 
     from core.pipeline.checking import CheckRequest
 
-MESSAGE_GOES: Final = 0.2
+SECONDS_BETWEEN_MESSAGE_CHECKS: Final = 0.2
 """Seconds between two checks whether a message has disappeared."""
 
 
@@ -138,7 +138,7 @@ class CutcompApp(TransformActions):
         """Take the messages over the screen away."""
         if self.screen.query("Toast"):
             super().clear_notifications()
-            self.set_timer(MESSAGE_GOES, self._paint_behind_messages)
+            self.set_timer(SECONDS_BETWEEN_MESSAGE_CHECKS, self._paint_behind_messages)
 
     def _paint_behind_messages(self) -> None:
         """Repaint once the messages are gone: Textual may leave part of one if something else changes then."""
@@ -146,7 +146,7 @@ class CutcompApp(TransformActions):
             # the program is ending
             return
         if self.screen.query("Toast"):
-            self.set_timer(MESSAGE_GOES, self._paint_behind_messages)
+            self.set_timer(SECONDS_BETWEEN_MESSAGE_CHECKS, self._paint_behind_messages)
         else:
             self.screen.refresh()
 

@@ -36,7 +36,7 @@ from core.units import Unit
 JSON_VERSION: Final = 1
 """Increases when a field of the JSON changes its meaning or is removed, but not for new fields."""
 
-MOST_NAMES: Final = 10
+MAX_NAMES: Final = 10
 """The most suffixes (or names without one) listed for the files that are left out."""
 
 
@@ -90,7 +90,7 @@ def _programs(files: list[Path]) -> Iterator[Path]:
         programs = sorted(file for file in all_files if _is_program(file))
         if programs and len(programs) < len(all_files):
             others = {file.suffix.lower() or file.name for file in all_files if not _is_program(file)}
-            names = " ".join(map(printable_path, sorted(others)[:MOST_NAMES]))
+            names = " ".join(map(printable_path, sorted(others)[:MAX_NAMES]))
             count = counted(len(all_files) - len(programs), "file")
             text = f"{printable_path(path)}: {count} left out that are no programs by their names: {names}"
             say(text)

@@ -7,7 +7,7 @@ from pathlib import Path
 from typing import ClassVar, Final, Self, TypeVar
 
 from app.documents import nc_journal
-from app.documents.files import LARGEST_FILE, Stamp
+from app.documents.files import MAX_PROGRAM_BYTES, Stamp
 from app.documents.journal import Journal, Kind, Place
 from app.documents.lock import Owner
 from app.documents.nc_text import MAX_NC_BYTES, NcText
@@ -188,5 +188,5 @@ Document = ContourDocument | NcDocument
 """A document of either kind; it is a value, and every edit makes a new one."""
 AnyDocument = TypeVar("AnyDocument", ContourDocument, NcDocument)
 
-MAX_BYTES: Final = {Kind.CONTOUR: LARGEST_FILE, Kind.NC: MAX_NC_BYTES}
+MAX_BYTES: Final = {Kind.CONTOUR: MAX_PROGRAM_BYTES, Kind.NC: MAX_NC_BYTES}
 """The size of the largest file of each kind in bytes."""

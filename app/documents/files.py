@@ -25,7 +25,7 @@ from core.program.file.read import StoreError, loads_bytes
 from core.program.file.write import dumps
 from core.program.model import Program
 
-LARGEST_FILE: Final = 4_000_000
+MAX_PROGRAM_BYTES: Final = 4_000_000
 """The size of the largest program file in bytes: about twenty thousand segments."""
 SEARCHED_BYTES: Final = 4096
 """The number of bytes at the start of a file in which a program's `format` key must appear."""
@@ -105,7 +105,7 @@ def stamp_of_data(data: bytes, changed: int = 0) -> Stamp:
     return Stamp(len(data), changed, f"{crc32(data):08x}{adler32(data):08x}")
 
 
-def stamp_of(path: Path, most: int = LARGEST_FILE) -> Stamp | None:
+def stamp_of(path: Path, most: int = MAX_PROGRAM_BYTES) -> Stamp | None:
     """Return the file's current stamp, None if it cannot be read."""
     try:
         data, status = read_file(path, most)
@@ -118,7 +118,7 @@ def load(path: str | Path) -> Program:
     """Return the program in a file; StoreError says what is wrong with it and what to do."""
     path = Path(path)
     try:
-        data, _ = read_file(path, LARGEST_FILE)
+        data, _ = read_file(path, MAX_PROGRAM_BYTES)
     except (OSError, ValueError) as error:
         raise StoreError(f"{path} cannot be read: {why(error)}") from error
     try:
@@ -159,7 +159,7 @@ class TooLargeError(OSError):
         super().__init__(errno.EFBIG, "too large")
 
 
-def _read_all(file: BinaryIO, most: int = LARGEST_FILE) -> bytes:
+def _read_all(file: BinaryIO, most: int = MAX_PROGRAM_BYTES) -> bytes:
     data = file.read(most + 1) or b""
     if len(data) > most:
         raise TooLargeError

@@ -44,7 +44,7 @@ from core.units import Kind
 if TYPE_CHECKING:
     from app.app import CutcompApp
 
-SMALLEST = (60, 20)
+SMALLEST_TERMINAL = (60, 20)
 """Columns and rows of the smallest supported terminal."""
 
 WIDTH_CLASSES: Final = [(0, "-narrow"), (80, "-native"), (100, "-medium"), (132, "-wide"), (190, "-huge")]
@@ -285,9 +285,11 @@ class BaseScreen(Screen[None]):
     def too_small(self) -> Sentence | None:
         """Return a warning if the terminal is smaller than supported; all keys still work."""
         width, height = self.app.size
-        if width >= SMALLEST[0] and height >= SMALLEST[1]:
+        if width >= SMALLEST_TERMINAL[0] and height >= SMALLEST_TERMINAL[1]:
             return None
-        return Sentence(f"Window is {width}x{height}; it needs {SMALLEST[0]}x{SMALLEST[1]}.", Tone.WARNING)
+        return Sentence(
+            f"Window is {width}x{height}; it needs {SMALLEST_TERMINAL[0]}x{SMALLEST_TERMINAL[1]}.", Tone.WARNING
+        )
 
     def take(self) -> bool:
         """Take the text typed into the field with the cursor; return False, and say why, if it is refused."""

@@ -14,7 +14,7 @@ from textual.content import Content
 
 from app.widgets.plain import PlainText
 
-LONGEST_LINE = 14
+MAX_LABEL_CHARACTERS = 14
 """The most characters of a label on one line; a longer label breaks after its first word."""
 
 LEGEND = (
@@ -70,7 +70,7 @@ def _label(number: int, key: Softkey | None, acts: bool) -> Text:
     cap = (f" F{number} ", "reverse bold" if acts else "dim")
     if key is None:
         return Text.assemble(cap)
-    label = key.label if len(key.label) <= LONGEST_LINE else key.label.replace(" ", "\n     ", 1)
+    label = key.label if len(key.label) <= MAX_LABEL_CHARACTERS else key.label.replace(" ", "\n     ", 1)
     return Text.assemble(cap, " ", (label, "" if acts else "dim"))
 
 

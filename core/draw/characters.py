@@ -20,8 +20,8 @@ MAX_SCALE_BAR_SHARE: Final = 0.3
 """Largest share of the window's width that the scale bar takes."""
 LABEL_DISTANCE: Final = 2.5
 """Distance of a label from its point, in cell widths."""
-LEAST_COLUMNS: Final = 16
-LEAST_ROWS: Final = 3
+MIN_SCALE_BAR_COLUMNS: Final = 16
+MIN_SCALE_BAR_ROWS: Final = 3
 """Smaller windows have no scale bar and no axis names."""
 
 
@@ -38,7 +38,7 @@ class CellSheet:
 def write_signs(sheet: CellSheet, scene: Scene, view: View, mode: Mode) -> None:
     """Write a scene's axis names, labels and marks over a picture's cells."""
     columns, rows, look = sheet.columns, sheet.rows, CELLS_OF_MODE[mode]
-    if scene.axes and columns >= LEAST_COLUMNS and rows >= LEAST_ROWS:
+    if scene.axes and columns >= MIN_SCALE_BAR_COLUMNS and rows >= MIN_SCALE_BAR_ROWS:
         _name_axes(sheet, view)
     _write_labels(sheet, scene, view)
     positions = view.cells([mark.at for mark in scene.marks], columns, rows)

@@ -21,7 +21,7 @@ from core.geometry.piece import Arc, Line, Piece, Point, Turn
 from core.importing.nesting import CHORD_ERROR
 from core.importing.nodes import KEY_DECIMALS, Groups, Nodes, exact_nodes, nodes_of
 
-MOST_SLACK: Final = 0.01
+MAX_OVERLAP_DISTANCE: Final = 0.01
 """Largest distance in millimeters of equal or collinear pieces, even if TOLERANCE is larger."""
 
 NO_LENGTH: Final = 1e-7
@@ -70,7 +70,7 @@ def clean_up(pieces: Iterable[LayeredPiece], tolerance: float) -> Cleaned:
     kept = _without_duplicates(kept, tolerance, cleaned)
     cleaned.duplicates = count - len(kept)
     count = len(kept)
-    kept = _without_overlaps(kept, tolerance, min(tolerance, MOST_SLACK))
+    kept = _without_overlaps(kept, tolerance, min(tolerance, MAX_OVERLAP_DISTANCE))
     cleaned.overlaps = count - len(kept)
     cleaned.pieces, cleaned.closed = _closed_entities(sorted(kept, key=_key), tolerance)
     return cleaned
@@ -258,7 +258,7 @@ def _without_partial_copies(
 def _equal_rows(items: Sequence[LayeredPiece], tolerance: float) -> list[list[int]]:
     """Return the rows of equal pieces together, in order of the first of them."""
     # each of perhaps a thousand copies is compared only with the first of them
-    slack, groups = min(tolerance, MOST_SLACK), list[list[int]]()
+    slack, groups = min(tolerance, MAX_OVERLAP_DISTANCE), list[list[int]]()
     width = max(slack, 1e-7)
     cells: defaultdict[tuple[int, int], list[list[int]]] = defaultdict(list)
     for row, item in enumerate(items):

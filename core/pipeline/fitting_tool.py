@@ -22,7 +22,7 @@ MAX_MOVES: Final = 2_000
 MAX_TOOLS: Final = 8
 """Most tools of a program that are tried."""
 
-SMALLEST_SHARE: Final = 20
+MAX_REDUCTION: Final = 20
 """The smallest size tried is the diameter divided by this: with a tiny tool every fault looks small."""
 
 _NAMED: Final = re.compile(rb'(?:[TD]|CALL|DEF)\s*(?:(\d+)|"([^"]+)")', re.IGNORECASE)
@@ -57,7 +57,7 @@ def largest_tool(
 
     for tool in _named(text, tools):
         fails = ceil(from_mm(abs(tool.diameter_mm(done.unit)), done.unit) / step - 1e-6)
-        clean = fails // SMALLEST_SHARE
+        clean = fails // MAX_REDUCTION
         if not clean or not fits(tool, clean):
             continue
         while fails - clean > 1:

@@ -42,15 +42,15 @@ from core.tolerance import JOINED
 from core.units import Unit
 from core.verify.verdict import Verdict
 
-DRAWN_AGAIN: Final = frozenset({Style.UNCUT, Style.GOUGE})
+STYLES_DRAWN_OVER_SURFACE: Final = frozenset({Style.UNCUT, Style.GOUGE})
 """Roles of layers that repeat parts of the surface: they cannot widen the bounds of a drawing."""
-OF_SURFACE: Final = frozenset({Style.SURFACE, Style.UNCUT, Style.DELETED, Style.CURRENT, Style.UNTAKEN})
+SURFACE_STYLES: Final = frozenset({Style.SURFACE, Style.UNCUT, Style.DELETED, Style.CURRENT, Style.UNTAKEN})
 """Roles of the surface and of its faults."""
 LOUPE_HEIGHT_RADII: Final = 4.6
 """Height of a loupe in tool radii."""
-FEWEST_DOTS: Final = 2.6
+MIN_DOTS: Final = 2.6
 """The tool's path is drawn next to the surface only if the tool radius has at least this many dots."""
-FEWEST_DOTS_FOR_NUMBERS: Final = 3.0
+MIN_DOTS_FOR_NUMBERS: Final = 3.0
 """The same for the numbers of segments."""
 MAX_NARROW_COLUMNS: Final = 44
 """Segment numbers would crowd in a drawing of this many columns or fewer."""
@@ -133,17 +133,17 @@ class Subject:
         """Return the picture in columns x rows cells; None if there is nothing to see."""
         scene = block_scene(self.block, self.segment, self.unit, self.row)
         scene = _outlined(scene, self) if self.outline else replace(scene, axes=self.near is None)
-        bounds = scene.extent(without=DRAWN_AGAIN)
+        bounds = scene.extent(without=STYLES_DRAWN_OVER_SURFACE)
         if bounds is None or columns < 1 or rows < 1:
             return None
         view, look = _view_of(self, bounds, columns, rows), CELLS_OF_MODE[mode]
         dot = view.scale * look.dot[0]
         dots = (self.block.radius or 0.0) / dot
-        if dots < FEWEST_DOTS:
+        if dots < MIN_DOTS:
             scene = _outlined(scene, self)
         elif not self.outline:
             labels = (
-                _segment_labels(self.block) if dots >= FEWEST_DOTS_FOR_NUMBERS and columns > MAX_NARROW_COLUMNS else ()
+                _segment_labels(self.block) if dots >= MIN_DOTS_FOR_NUMBERS and columns > MAX_NARROW_COLUMNS else ()
             )
             scene = replace(scene, areas=_areas(self, dot), labels=labels)
         if self.cross is not None:
@@ -174,7 +174,7 @@ class SceneSubject:
 
     def drawn(self, columns: int, rows: int, mode: Mode) -> Drawn | None:
         """Return the picture in columns x rows cells; None if there is nothing to see."""
-        bounds = self.scene.extent(without=DRAWN_AGAIN)
+        bounds = self.scene.extent(without=STYLES_DRAWN_OVER_SURFACE)
         if bounds is None or columns < 1 or rows < 1:
             return None
         view = self.view or View.fit(bounds, columns, rows)
@@ -194,7 +194,7 @@ def _view_of(subject: Subject, bounds: Box, columns: int, rows: int) -> View:
 
 def _outlined(scene: Scene, subject: Subject) -> Scene:
     """Return the surface and its faults alone: if the cutter is a few dots wide, the rest would be one blob."""
-    layers = tuple(layer for layer in scene.layers if layer.style in OF_SURFACE)
+    layers = tuple(layer for layer in scene.layers if layer.style in SURFACE_STYLES)
     if subject.outline:
         return Scene(layers, marks=subject.trouble, axes=False)
     marks = tuple(mark for mark in scene.marks if mark.style in (Style.GOUGE, Style.DELETED, Style.START))

@@ -63,7 +63,7 @@ LARGEST: Final = 40
 """Segments of a program; a larger one is given up, so that a key stays fast."""
 NC: Final = "G20 G17 G90\nT1 M6\nG41 D1 G1 X0 Y0 F10\nX2\nY1\nX0\nY0\nG40 X-1\nM30\n"
 TABLE: Final = "T1 P1 D0.5 ;end mill\nT2 P2 D0.25\nT3 P3 Dx ;not a number\n"
-SMALLEST: Final = (60, 20)
+SMALLEST_TERMINAL: Final = (60, 20)
 """Columns and rows from which on a screen has room."""
 PAGE: Final = 4096
 MEGABYTE: Final = 1024 * 1024
@@ -267,7 +267,7 @@ def in_sight(app: CutcompApp) -> bool:
     """Whether the field with the cursor is seen; on a terminal that is too small nothing need be."""
     if app.focused is None or not app.focused.display:
         return False
-    room = app.size.width >= SMALLEST[0] and app.size.height >= SMALLEST[1]
+    room = app.size.width >= SMALLEST_TERMINAL[0] and app.size.height >= SMALLEST_TERMINAL[1]
     try:
         return not room or bool(app.screen.find_widget(app.focused).visible_region)
     except NoWidget:

@@ -79,7 +79,7 @@ def test_loading_a_file_that_is_not_text_or_too_large_is_refused(tmp_path):
     path = tmp_path / "part.toml"
     path.write_bytes(b'format = 1\nunits = "\xb0"\n')
     assert "line 2: this is not UTF-8 text" in refusal(lambda: load(path))
-    path.write_bytes(b"#" * (files.LARGEST_FILE + 1))
+    path.write_bytes(b"#" * (files.MAX_PROGRAM_BYTES + 1))
     assert "it is too large. Choose another file." in refusal(lambda: load(path))
 
 

@@ -18,7 +18,7 @@ from core.program.solve.run.typed_run import Run
 MAX_SAME_DISTANCE: Final = 1e-6
 """Millimeters within which two answers count as the same."""
 
-MOST_BRANCHES: Final = 512
+MAX_BRANCHES: Final = 512
 """The most branches that are followed in one run; a run with more is not solved."""
 
 GRAZE_SHIFT: Final = 12
@@ -61,7 +61,7 @@ def search(run: Run) -> Search:
     answers: list[Answer] = []
     stuck: Branch | None = None
     waiting, count = [first], 0
-    while waiting and count < MOST_BRANCHES:
+    while waiting and count < MAX_BRANCHES:
         branch, count = waiting.pop(), count + 1
         branch.settle()
         try:
