@@ -1,9 +1,7 @@
 """Offset: move every segment one radius to the side and put corner arcs between, also for best paths and M120.
 
-Words: the chain's parts are offset SEGMENTs, CORNER arcs about outside corners, BRIDGEs (provisional lines at inside
-corners, whose two offsets are still to be tested), and VANISHED segments (inside arcs not larger than the tool, also
-replaced by a line).  The position of a part in half steps is 2 k for the k-th segment (from 0), 2 k + 1 for the part
-between it and the next: two parts are within a look-ahead of v if they are within 2 v half steps.
+The position of a part in half steps is 2 k for the k-th segment (from 0), and 2 k + 1 for the part between it and the
+next.  Two parts are within a look-ahead of v if they are within 2 v half steps.
 """
 
 from __future__ import annotations
@@ -24,9 +22,13 @@ class RawPart(IntEnum):
     """The kind of a piece of the raw chain."""
 
     SEGMENT = 0
+    """An offset segment."""
     CORNER = 1
+    """An arc about an outside corner."""
     BRIDGE = 2
+    """A provisional line at an inside corner, where the two offsets are still to be tested."""
     VANISHED = 3
+    """A line in place of an inside arc that is not larger than the tool."""
 
 
 @dataclass(frozen=True, eq=False, slots=True)

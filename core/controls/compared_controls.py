@@ -64,8 +64,8 @@ def compare(
     """Run the program on every control, in the registry's order; `unit` applies if it names none, inches by default.
 
     The `reference`, by its full name, comes first, and the others are compared with it if it runs the program.  A
-    control of another language gets the contour as read by the first control that runs the program to its end, or by
-    one that stops for the tool's radius, then run with a thinner tool.
+    control of another language gets the contour as the first control reads it that runs the program to its end.  If
+    none does, a control that stops because of the tool's radius reads it with a thinner tool.
     """
     first: ControlRun | None = None
     rows: list[Compared | OtherLanguage] = []

@@ -1,9 +1,7 @@
 """This module finds where lines and arcs meet, for arrays of pairs, and tells tangent and overlapping pairs apart.
 
-Words: a pair CROSSes if one piece passes through the other or ends on it (one or two points), TOUCHes if the pieces
-are tangent or lie end to end in one line, OVERLAPs if they run along each other, and is APART otherwise.
-A point's `along` is its distance from the piece's start, measured on the piece.  Inside this module points
-are complex numbers: conj(u) v has the dot product as real and the cross product as imaginary part.
+Inside this module points are complex numbers: conj(u) v has the dot product as real and the cross product as imaginary
+part.
 """
 
 from __future__ import annotations
@@ -30,27 +28,33 @@ class Meeting(IntEnum):
 
     APART = 0
     TOUCH = 1
+    """They are tangent, or lie end to end in one line."""
     CROSS = 2
+    """One passes through the other or ends on it, in one or two points."""
     OVERLAP = 3
+    """They run along each other."""
 
 
 @dataclass(frozen=True, eq=False, slots=True)
 class Meetings:
     """How k pairs of pieces a, b meet, and the p points where they do.
 
-    `kinds` (k,) holds a `Meeting` for each pair.  `pair` (p,) is the row of each point's pair, `along_a` and
-    `along_b` (p,) its distance from the start of either piece, `rest_a` and `rest_b` (p,) its distance from their ends,
-    `points` (p, 2) the point.  Points come in the order of pairs and, within a pair, as traveled on a; a
-    touch that is nearly a crossing may have two.  Millimeters.  An OVERLAP has no points.
+    Points come in the order of pairs and, within a pair, as traveled on a.  A TOUCH that is nearly a CROSS may have two
+    points, an OVERLAP has none.  Millimeters, measured along the pieces.
     """
 
     kinds: NDArray[np.int8]
+    """(k,) a `Meeting` for each pair."""
     pair: Rows
+    """(p,) the row of each point's pair."""
     along_a: Floats
+    """(p,) distance of the point from the start of a."""
     along_b: Floats
     rest_a: Floats
+    """(p,) distance of the point from the end of a."""
     rest_b: Floats
     points: Floats
+    """(p, 2)"""
 
 
 class _Points(NamedTuple):

@@ -5,9 +5,9 @@ begins; a segment's *floor* is the height that its Z START and Z END give it.
 
 Roughing comes first, with TOOL: at each depth all its runs from outside in, then one peck deeper, so that no run
 is ever deeper than one peck in stock that another run should have taken.  Without a finish tool, the run at full size
-is the last at each depth.  FINISH TOOL follows in one pass at full depth; it pecks only if it is smaller than TOOL,
-since corners are then still solid, if it is wider than the roughed strip, or if it cuts a segment that no roughing run
-has cut.
+is the last at each depth.  FINISH TOOL follows in one pass at full depth.  It pecks only where it may meet solid
+material: if it is smaller than TOOL, since corners are then still solid; if it is wider than the roughed strip; or if
+it cuts a segment that no roughing run has cut.
 
 PECK, for every run: feed down to the depth, mill the contour, rapid up to the retract clearance over Z START, rapid
 back to the plunge point, rapid down to the last depth there plus the peck clearance, feed one peck deeper.

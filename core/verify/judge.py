@@ -31,11 +31,13 @@ def judge(
 ) -> Verdict:
     """Judge what a cutter of this radius does to `surface` when its center runs along `center`, lead moves included.
 
-    Every distance between lines and arcs is exact.  A path nearer than the radius by no more than GOUGE plus the slack
-    of uneven arcs does not gouge: that is rounding.  Joined paths never raise an error.  A verdict is not `judged`, and
-    so never clean, if a coordinate or the radius is not finite or larger than LARGEST, or if an arc's radii at its
-    two ends differ by more than `arc_tolerance` (mm), or at all with both ends on one ray from the center.
-    `leads` says which parts of the surface's ends may belong to an over-run.
+    Every distance between lines and arcs is exact.  A path that is nearer than the radius by no more than GOUGE plus
+    the slack of uneven arcs does not gouge: that is rounding.  `leads` says which parts of the surface's ends may
+    belong to an over-run.
+
+    No joined path raises an error.  A verdict is not `judged`, and so never clean, in three cases: a coordinate or the
+    radius is not finite or exceeds LARGEST_COORDINATE; an arc's radii at its two ends differ by more than
+    `arc_tolerance` (mm); an uneven arc has both ends on one ray from its center.
     """
     return judge_together(surface, side, radius, (center,), arc_tolerance, leads=leads)
 

@@ -22,21 +22,23 @@ MIN_SEPARATE_ANGLE: Final = 1e-6
 class Pairs:
     """m pairs of a piece `i` and another path's piece `j`, by rising i: every j that is nearest to some place of its i.
 
-    `stations` (n + 1,) are the lengths traveled at the pieces' starts and at the end.  `grant` (m,) is each pair's
-    tolerance for rounding and the uneven radii of arcs.  `least` (m,) is the least distance between the pieces,
-    `from_piece` (3, m) the distance of the piece's start, middle and end from the other one, and `from_other` (2, m)
-    the distance of the other one's start and end from the piece.
+    Distances are in millimeters.
     """
 
     pieces: PieceArrays
     others: PieceArrays
     stations: Floats
+    """(n + 1,) lengths traveled at the pieces' starts and at the end."""
     i: Rows
     j: Rows
     grant: Floats
+    """(m,) tolerance of each pair for rounding and for the uneven radii of arcs."""
     least: Floats
+    """(m,) least distance between the two pieces."""
     from_piece: Floats
+    """(3, m) distances of the piece's start, middle and end from the other one."""
     from_other: Floats
+    """(2, m) distances of the other one's start and end from the piece."""
 
     @property
     def begins(self) -> Rows:

@@ -46,24 +46,16 @@ Words = dict[str, str]
 
 @dataclass(slots=True)
 class State:
-    """What a program has set so far.
-
-    `side` is the side of the last RL (+1), RR (-1) or R0 (0), `applied` the side in effect on the tool's path, `offset`
-    the path's signed radius, and `ahead` the number of blocks that M120 looks ahead.  `last` is the contour element
-    just programmed, None if the next one cannot be tangent to it.  `transform` places what is programmed;
-    `datum_moved`: the datum was shifted while it was in force.  `waiting` takes the steps.  `share` is the fraction
-    of the tool radius that the run uses.  `pole` is in coordinates of `pole_plane`, the plane of the axes in CC.
-    `cycle` is the number of the cycle that a call runs; `cycle_due`: M99 calls it after the block.  `at_machine_place`
-    are the axes that M91, M92 or M140 has sent where only the machine knows; `lost`: the tool axis is one of them when
-    the block starts.
-    """
+    """What a program has set so far."""
 
     log: Log
     waiting: CornerBuffer
+    """Takes the steps, and holds back those at a corner that is still to be rounded."""
     tools: ToolTable
     blocks: Sequence[Block]
     labels: Mapping[str, int]
     share: float = 1.0
+    """The fraction of the tool radius that the run uses."""
     unit: Unit = Unit.MM
     begun: bool = False
     ended: bool = False
@@ -74,14 +66,21 @@ class State:
     position: list[float] = field(default_factory=lambda: [0.0, 0.0, 0.0])
     known: set[int] = field(default_factory=set)
     at_machine_place: set[int] = field(default_factory=set)
+    """Axes that M91, M92 or M140 has sent to a place that only the machine knows."""
     lost: bool = False
+    """The tool axis is one of them when the block starts."""
     shift: list[float] = field(default_factory=lambda: [0.0, 0.0, 0.0])
     transform: Transform = field(default_factory=Transform)
+    """Mirrors or turns what is programmed."""
     datum_moved: bool = False
+    """The datum was shifted while a transform was in force."""
     pole: Point | None = None
+    """In coordinates of `pole_plane`, the plane of the axes in CC."""
     pole_plane: Plane = Plane.XY
     cycle: int | None = None
+    """The number of the cycle that a call runs."""
     cycle_due: bool = False
+    """M99 calls it after the block."""
     feed: float = 0.0
     tool_feed: float = 0.0
     before: tuple[bool, float] = (False, 0.0)
@@ -93,12 +92,17 @@ class State:
     radius: float | None = None
     feed_at: FeedAt = FeedAt.CENTER
     side: int = 0
+    """The side of the last RL (+1), RR (-1) or R0 (0)."""
     applied: int = 0
+    """The side in effect on the tool's path."""
     offset: float = 0.0
+    """The path's signed radius."""
     ahead: int = 0
+    """The number of blocks that M120 looks ahead."""
     reported_cycles: set[int] = field(default_factory=set)
     reported_empty: bool = False
     last: Element | None = None
+    """The contour element just programmed; None if the next one cannot be tangent to it."""
 
     def note_spindle(self) -> None:
         """Note the tool, if it has a number, and the speed in force."""
