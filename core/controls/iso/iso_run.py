@@ -84,12 +84,12 @@ def _run(flow: Flow, machine: Machine, progress: Progress) -> None:
         for block in flow.blocks(line):
             machine.step(block)
             if machine.ended or not flow.follow_call(block):
-                machine.control.end_of_program()
+                machine.control.end(flow.at)
                 return
         if flow.ends_here(line):
             break
     flow.end_of_file()
-    machine.control.end_of_program()
+    machine.control.end(flow.at)
 
 
 def _by_main_lines(run: ControlRun, flow: Flow) -> ControlRun:

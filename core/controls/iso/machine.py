@@ -103,6 +103,13 @@ class Control(Recorder):
     def end_of_program(self) -> None:
         """Handle the end of the program."""
 
+    def end(self, line: int) -> None:
+        """Handle the end of the program at this line, and warn if it is still under compensation."""
+        if self.active and self.machine.side_on:
+            text = "The program ends under compensation. Write G40 and a move away from the part."
+            self.log.report(Severity.WARNING, "OPEN", text, line, 1)
+        self.end_of_program()
+
 
 class Machine(ModalState):
     """Runs blocks on a control."""

@@ -33,6 +33,9 @@ _UNSUPPORTED: Final = (
 _SPATIAL: Final = re.compile(
     r"\s*SPATIAL\s+SPA\s*([-+.,\dQLR]+)\s+SPB\s*([-+.,\dQLR]+)\s+SPC\s*([-+.,\dQLR]+)\s+STAY\b", re.ASCII
 )
+MAX_WORN_SHARE: Final = 0.1
+"""Share of a tool's radius that may be ground away; a DR that takes off more may be a mistake."""
+
 _PLANE_OF_TOOL_AXIS: Final = {"Z": Plane.XY, "X": Plane.YZ, "Y": Plane.ZX}
 _TOOL_DEF_WORDS: Final = frozenset(("L", "R", "R2", "DL", "DR", "DR2"))
 _TOOL_CALL_WORDS: Final = frozenset(("S", "F", "DL", "DR", "DR2", "X", "Y", "Z"))
@@ -187,7 +190,11 @@ def _take_radius(state: State, block: Block, delta: float) -> None:
     if state.radius is not None:
         if delta and state.radius > 0.0:
             text = "The tool radius is {0} with DR. It is judged as this wide."
-            state.report(Severity.INFO, "TOOL", text, block, "DR", state.radius)
+            if delta < -MAX_WORN_SHARE * radius:
+                text = "DR makes the tool radius {0} instead of {1}. Unless it is that worn, it cuts {2} too deep."
+                state.report(Severity.WARNING, "TOOL", text, block, "DR", state.radius, radius, -delta)
+            else:
+                state.report(Severity.INFO, "TOOL", text, block, "DR", state.radius)
         state.parameters["Q108"] = state.radius / to_mm(1.0, state.unit)
 
 

@@ -386,7 +386,7 @@ class Fanuc(VectorQueue, Control):
         self.close_stretch()
         self.away = True
 
-    def end_of_program(self) -> None:
+    def end(self, _: int) -> None:
         """End of the program: under compensation the last move ends square."""
         line = self.block.line if self.block else 1
         if self.active:

@@ -299,7 +299,7 @@ class ThreeBlock(ElementQueue, Control):
         text = "The move that leaves compensation must be straight. Write G0 or G1. The manual only implies this."
         self.log.stop("B20-G40ARC", text, line, column)
 
-    def end_of_program(self) -> None:
+    def end(self, _: int) -> None:
         """End of the program: report compensation that is still on, and end the last element square."""
         if self.active:
             text = "The program ends with compensation on. Write a block with G40. That it needs one is an assumption."

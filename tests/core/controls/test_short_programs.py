@@ -351,3 +351,23 @@ def test_a_block_under_compensation_has_its_rule(control: str, rule: str, block:
     run = ran(f"{first}\n{side} G1 X9.\nX20.\n{block}\nY-30.\n", control, t1=5.0)
     assert rule in [finding.code for finding in run.findings if finding.line == 4] or not rule
     assert rule or not [finding for finding in run.findings if finding.line == 4]
+
+
+OPEN = "G21 G17 G40 G90\nT4 M6\nG0 X-30. Y-30.\nG41 D4 G1 X0. Y-15. F400.\nY40.\nX60.\n{cancel}X90. Y20.\n{late}M2\n"
+
+
+@pytest.mark.parametrize(
+    ("control", "rule"),
+    [
+        ("linuxcnc", "OPEN"),
+        ("rosettacnc:normal", "OPEN"),
+        ("nine-series:a", "OPEN"),
+        ("fanuc:a", "FN-OPEN"),
+        ("haas:a", "H349"),
+    ],
+)
+@pytest.mark.parametrize(("cancel", "late"), [("", ""), ("G40 ", ""), ("", "G40\n")])
+def test_a_program_that_ends_under_compensation_is_told(cancel: str, late: str, control: str, rule: str) -> None:
+    run = ran(OPEN.format(cancel=cancel, late=late), control, t4=10.0)
+    told = [(finding.code, finding.line) for finding in run.findings if "ends under compensation" in finding.text]
+    assert told == ([] if cancel or late else [(rule, 8)])

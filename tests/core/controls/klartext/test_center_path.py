@@ -2,12 +2,14 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from math import sqrt
 
 import pytest
 
 from core.controls.compensation.elements import arc_element
 from core.controls.klartext.center_path import remaining
+from core.finding import Severity
 from tests.core.controls.klartext.klartext_runs import clean, codes, flat, points, runs
 
 NEAR = pytest.approx
@@ -150,6 +152,17 @@ def test_m109_to_m111_set_the_feed_on_arcs(function: str, inside: float, outside
 def test_the_radius_includes_all_deltas() -> None:
     run = runs("TOOL DEF 2 L+0 R+4 DR+0.5", "TOOL CALL 2 Z S1000 DR+0.25", START, "L X+0 RL F9", "L X+9", "L X+30 R0")
     assert flat(run)[0] == NEAR((0, 4.75))
+
+
+@pytest.mark.parametrize(
+    ("delta", "severity", "lengths"),
+    [("-0.05", Severity.INFO, (4.95,)), ("+0.5", Severity.INFO, (5.5,)), ("-3", Severity.WARNING, (2.0, 5.0, 3.0))],
+)
+def test_a_delta_that_is_more_than_wear_is_a_warning(delta: str, severity: Severity, lengths: Sequence[float]) -> None:
+    run = runs(f"TOOL CALL 1 Z DR{delta}", START, "L X+0 RL F9", "L X+9", "L X+30 R0", radius=5)
+    (told,) = run.findings
+    assert (told.code, told.line, told.severity) == ("TOOL", 4, severity)
+    assert told.lengths == NEAR(lengths)
 
 
 def test_a_negative_radius_swaps_the_side_and_is_reported() -> None:
