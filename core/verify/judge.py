@@ -28,6 +28,7 @@ def judge(
     arc_tolerance: float = ARC_RADII,
     *,
     leads: Leads = Leads.SEGMENTS,
+    measures_uncut: bool = True,
 ) -> Verdict:
     """Judge what a cutter of this radius does to `surface` when its center runs along `center`, lead moves included.
 
@@ -38,8 +39,10 @@ def judge(
     No joined path raises an error.  A verdict is not `judged`, and so never clean, in three cases: a coordinate or the
     radius is not finite or exceeds LARGEST_COORDINATE; an arc's radii at its two ends differ by more than
     `arc_tolerance` (mm); an uneven arc has both ends on one ray from its center.
+
+    Without `measures_uncut` the verdict says nothing of what stays uncut, which takes most of the time.
     """
-    return judge_together(surface, side, radius, (center,), arc_tolerance, leads=leads)
+    return judge_together(surface, side, radius, (center,), arc_tolerance, leads=leads, measures_uncut=measures_uncut)
 
 
 def judge_together(
@@ -50,6 +53,7 @@ def judge_together(
     arc_tolerance: float = ARC_RADII,
     *,
     leads: Leads = Leads.SEGMENTS,
+    measures_uncut: bool = True,
 ) -> Verdict:
     """Judge several center paths that are all cut, such as the loops of one contour.
 
@@ -59,11 +63,17 @@ def judge_together(
         return _unjudged(radius)
     if not len(surface):
         return Verdict(radius, None, (), (), 0.0, crosses_itself=False)
-    return judge_prepared(Surface.prepare(surface, side, leads=leads), radius, centers, arc_tolerance)
+    prepared = Surface.prepare(surface, side, leads=leads)
+    return judge_prepared(prepared, radius, centers, arc_tolerance, measures_uncut=measures_uncut)
 
 
 def judge_prepared(
-    surface: Surface, radius: float, centers: Sequence[Path], arc_tolerance: float = ARC_RADII
+    surface: Surface,
+    radius: float,
+    centers: Sequence[Path],
+    arc_tolerance: float = ARC_RADII,
+    *,
+    measures_uncut: bool = True,
 ) -> Verdict:
     """Judge like `judge_together`, on a surface that is already prepared."""
     if not measurable(radius, *centers):
@@ -77,7 +87,7 @@ def judge_prepared(
                 number, slack = float(known[pieces.rows[worst]]), float(pieces.slack[worst])
                 return _unjudged(radius, UnevenArc(number, slack, on_surface=pieces is surface.walls))
         try:
-            return _judged(surface, radius, moves, numbers)
+            return _judged(surface, radius, moves, numbers, measures_uncut=measures_uncut)
         except NotMeasurableError:
             return _unjudged(radius)
 
@@ -86,14 +96,13 @@ def _unjudged(radius: float, arc: UnevenArc | None = None) -> Verdict:
     return Verdict(radius, None, (), (), float("nan"), crosses_itself=False, judged=False, uneven_arc=arc)
 
 
-def _judged(surface: Surface, radius: float, moves: PieceArrays, numbers: Floats) -> Verdict:
+def _judged(surface: Surface, radius: float, moves: PieceArrays, numbers: Floats, *, measures_uncut: bool) -> Verdict:
     walls, side = surface.walls, surface.side
     pairs = pairs_of(moves, walls, rounding_of(walls))
     if np.isnan(pairs.least).any():
         return _unjudged(radius)
     hits = gouging(pairs, radius - GOUGE)
     wrong, deepest = wrong_side(pairs, hits, sided(side, walls, surface.crossings, closed=surface.closed), radius)
-    covered = covered_walls(pairs, radius, closed=surface.closed)
     crossed = surface.crossings.points[:1].tolist()
     verdict = Verdict(
         radius=radius,
@@ -109,6 +118,9 @@ def _judged(surface: Surface, radius: float, moves: PieceArrays, numbers: Floats
         over_run=surface.over_run,
         radius_slack=float(uneven_slack(moves, pairs.i, walls, pairs.j).max(initial=0.0)),
     )
+    if not measures_uncut:
+        return verdict
+    covered = covered_walls(pairs, radius, closed=surface.closed)
     # free the memory of the moves' pairs before those of the walls are made
     del pairs
     left = uncut(walls, moves, covered, radius, surface.path, side, closed=surface.closed)

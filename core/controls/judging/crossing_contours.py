@@ -220,7 +220,15 @@ def _outline(path: Path, own: BaseGeometry) -> tuple[BaseGeometry, BaseGeometry]
 
 def _measured(contour: CutContour, sweep: _Pass) -> Iterator[ContourCut]:
     for path in sweep.low(contour.top):
-        verdict = judge(contour.path, contour.stretch.side, sweep.radius, path, contour.accepted, leads=Leads.MOVES)
+        verdict = judge(
+            contour.path,
+            contour.stretch.side,
+            sweep.radius,
+            path,
+            contour.accepted,
+            leads=Leads.MOVES,
+            measures_uncut=False,
+        )
         yield from (ContourCut(gouge, sweep.radius) for gouge in verdict.gouges)
 
 

@@ -239,7 +239,7 @@ def _cuts_of(
     gouges, unjudged, slack = list[Gouge](), list[Judged](), 0.0
     for contour in contours:
         accepted = _accepted_difference(run, contour, center)
-        verdict = judge(contour, part.side, part.radius, center, accepted, leads=leads)
+        verdict = judge(contour, part.side, part.radius, center, accepted, leads=leads, measures_uncut=False)
         if verdict.judged:
             gouges += verdict.gouges
             slack = max(slack, verdict.radius_slack)
@@ -468,7 +468,7 @@ def _with_leads(
     stretch, center, surface = results[0].stretch, results[0].center, without_repeats(whole)
     long = has_long_leads(whole, contours)
     ends = Leads.NONE if long else Leads.SEGMENTS
-    verdict = judge(surface, stretch.side, stretch.radius, center, accepted, leads=ends)
+    verdict = judge(surface, stretch.side, stretch.radius, center, accepted, leads=ends, measures_uncut=False)
     gouges = verdict.gouges if verdict.judged else ()
     certain = set[float]() if arcs else {float(whole.numbers[row]) for row in blend_leads(whole, contours)}
     doubtful = set(leads) - certain

@@ -136,6 +136,6 @@ def _cuts(moves: Moves, radius: float, contours: Sequence[CutContour], *, rapid:
     for contour in contours:
         if height > contour.top + ON_PATH or not any(True for _ in near_pairs(path.boxes, contour.path.boxes, radius)):
             continue
-        verdict = judge(contour.path, contour.stretch.side, radius, path, contour.accepted)
+        verdict = judge(contour.path, contour.stretch.side, radius, path, contour.accepted, measures_uncut=False)
         cuts += [UncompensatedCut(gouge, height, rapid) for gouge in verdict.gouges]
     return cuts

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from math import inf, isnan, nan, pi, sqrt
 
 import numpy as np
@@ -379,3 +380,11 @@ def test_piece_numbers_of_several_loops_count_pieces_without_length() -> None:
     still = lines((1, 1), (1, 1), (1.2, 1))
     verdict = judge_together(square(), Side.LEFT, R, (still, lines((1, 1), (1, 0.1))))
     assert [gouge.path_piece for gouge in verdict.gouges] == [2]
+
+
+def test_without_what_stays_uncut_the_rest_of_the_verdict_is_the_same() -> None:
+    contour, path = lines((0, 0), (4, 0), (4, 3), (0, 3), (0, 0)), lines((0.2, 0.5), (2, 0.5), (2, 1))
+    whole = judge(contour, Side.LEFT, 0.5, path)
+    assert whole.uncut
+    assert whole.gouges
+    assert judge(contour, Side.LEFT, 0.5, path, measures_uncut=False) == replace(whole, uncut=())
