@@ -17,6 +17,8 @@ if TYPE_CHECKING:
 
 NAME_WIDTH = 10
 """Cells of the column with the names of the lines."""
+TEXT_WIDTH = 49
+"""Cells for the text after it, beside a drawing."""
 
 
 class BlockSummary(PlainText):
@@ -42,7 +44,7 @@ def about(block: DerivedBlock, unit: Unit, characters: str) -> list[tuple[str, C
     number = block.block.tool.value if isinstance(block.block.tool, Number) else None
     lines += [("TOOL" if number is None else f"TOOL {number:g}", tool), ("LIMITS", _limits(block, unit))]
     texts = [(name, Content(text)) for name, text in lines if text]
-    return [*texts, ("VERDICT", chips(Case(block, None, unit), MARKS_OF_CHARACTERS[characters]))]
+    return [*texts, ("VERDICT", chips(Case(block, None, unit), MARKS_OF_CHARACTERS[characters], width=TEXT_WIDTH))]
 
 
 def _contour(block: DerivedBlock, unit: Unit) -> str:

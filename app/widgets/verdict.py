@@ -208,7 +208,7 @@ def _advice(case: Case) -> str:
     return f"best {best}: uncut {length(row.uncut, case.unit)}" if row.verdict.uncut else f"best {best}: clean"
 
 
-def chips(case: Case, marks: Marks, *, findings_key: str = "F10") -> Content:
+def chips(case: Case, marks: Marks, *, findings_key: str = "F10", width: int = CHIPS_WIDTH) -> Content:
     """Return GOUGE, UNCUT and DELETED; without segments, what to type first; without a path, the first error."""
     if hint := first_step(case.block):
         depth = next((finding for finding in case.block.findings if finding.code == "Z_ORDER"), None)
@@ -230,7 +230,7 @@ def chips(case: Case, marks: Marks, *, findings_key: str = "F10") -> Content:
         for rest in ((deleted, *others), (counted, *others), (counted,))
         for gap in ("   ", "  ")
     ]
-    return next((row for row in rows if len(row) <= CHIPS_WIDTH), rows[-1])
+    return next((row for row in rows if len(row) <= width), rows[-1])
 
 
 def _others(block: DerivedBlock, marks: Marks, findings_key: str) -> tuple[tuple[str, str], ...]:

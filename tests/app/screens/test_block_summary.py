@@ -2,10 +2,15 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
+
 from textual.widgets import OptionList
 
+from app.documents.files import load
+from app.documents.programs import example
 from app.screens.contour import ContourScreen
 from app.widgets.block_summary import BlockSummary
+from core.program.model import Number
 from tests.app.screens.test_list_keys import run
 from tests.app.widget_pilot import Operator, operator
 
@@ -40,6 +45,19 @@ async def test_home_says_what_the_program_is():
         await user.press("p", "o")
         await user.finish()
         assert lines(user)[1] == "CONTOUR   11 segments, closed, 15.4560 long"
+
+
+async def test_a_verdict_with_uncut_area_is_not_cut_off():
+    flange = load(example("flange"))
+    too_big = tuple(replace(tool, diameter=Number(60.0)) for tool in flange.tools)
+    async with operator(replace(flange, tools=too_big), size=(132, 43)) as user:
+        await run(user, "app.program")
+        await user.press("down")
+        await user.finish()
+        verdict = lines(user)[4]
+        assert "UNCUT 6.2832 long" in verdict
+        assert "DELETED none" in verdict
+        assert len(verdict) <= user.screen.query_one(BlockSummary).content_size.width
 
 
 async def test_the_lines_are_hidden_on_small_terminals():
