@@ -632,6 +632,8 @@ class ContourScreen(FormScreen):
             self.clear_notice()
         elif not (text.isascii() and text.isdigit()):
             self.say(f"{text} is no segment number: type digits only, such as 3, then Enter.", Tone.ERROR)
+        elif not last and int(text):
+            self.say(f"No segment {text} yet. ENTER edits START, right arrow adds segment 1.", Tone.ERROR)
         elif int(text) > last:
             self.say(f"No segment {text}. 0 to {last}, or right arrow past {last} for a new one.", Tone.ERROR)
         else:

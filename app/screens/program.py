@@ -27,7 +27,7 @@ from app.widgets.row_table import RowTable
 from app.widgets.softkeys import Softkey
 from app.widgets.verdict import MARKS_OF_CHARACTERS, Marks, verdict_word
 from core.pipeline.derived import Derived, DerivedBlock
-from core.program.edit import FormPlace, copy_block, delete_block, insert_block, move_block
+from core.program.edit import SEGMENT_FIELD, FormPlace, copy_block, delete_block, insert_block, move_block
 from core.program.model import Number, Program
 from core.units import Kind, show
 
@@ -158,15 +158,15 @@ class ProgramScreen(BaseScreen):
     def _edit_block(self, event: DataTable.RowSelected) -> None:
         self._edit(event.cursor_row + 1)
 
-    def _edit(self, number: int) -> None:
-        self.host.move(FormPlace(number))
+    def _edit(self, number: int, field: str = SEGMENT_FIELD) -> None:
+        self.host.move(FormPlace(number), field)
         self.app.call_later(self.app.run_action, "app.contour")
 
     def action_insert_block(self) -> None:
         """Insert a block after the one with the cursor and open its form."""
         at = self.chosen + 1
         if self.host.apply(insert_block(self.current_session.program, at), f"INSERT BLOCK {at}"):
-            self._edit(at)
+            self._edit(at, "tool")
             self.notify(depths_kept(self.current_session.program, at), timeout=6)
 
     def action_delete_block(self) -> None:

@@ -218,7 +218,8 @@ class ChoiceField(Select[str], inherit_bindings=False):
                 self.set_options([(choice, choice) for choice in choices])
             value: Any = text if text in self.choices else Select.NULL
             if value != self.value:
-                self.value = value
+                # another one than was spelled, for example after an undo
+                self.value, self._spelled = value, ""
 
     def action_step(self, by: int) -> None:
         """Go to the next or previous choice."""

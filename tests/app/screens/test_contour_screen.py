@@ -131,6 +131,8 @@ async def test_a_choice_can_be_typed_stepped_or_listed(user: Operator):
     assert str(user.session.block.cutter_comp) == "LEFT"
     await user.press("q")
     assert user.prompt == "Q is not a choice. Left and right change it."
+    await user.press("'right", "ctrl+z", "5")
+    assert user.prompt == "5 is not a choice. Left and right change it."
 
 
 async def test_a_new_block_keeps_tool_feeds_and_depths(user: Operator):
@@ -141,8 +143,11 @@ async def test_a_new_block_keeps_tool_feeds_and_depths(user: Operator):
     message = "Tool, feeds and depths as in block 1: Z BOTTOM -0.2500, PECK DEPTH 0.1000."
     assert depths_kept(user.session.program, 2) == message
     assert type(user.screen).__name__ == "ContourScreen"
-    await user.press("tab", "'3", "enter")
+    assert user.at == "tool"
+    await user.press("'3", "enter")
     assert user.session.block.tool == Number(3.0)
+    await user.press("ctrl+home", "'3", "enter")
+    assert user.prompt == "No segment 3 yet. ENTER edits START, right arrow adds segment 1."
 
 
 async def test_going_back_from_quit_leaves_the_text_half_typed():
