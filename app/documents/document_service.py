@@ -660,9 +660,11 @@ class DocumentService:
         entry.journal, entry.rewrite, entry.failing, entry.away = None, False, False, False
         if path != before.path:
             saved = self._relock(entry, saved)
-        other = "" if theirs is None else f" The other version is in {whole_name(theirs)}."
         reason = f", in place: {in_place}" if in_place else ""
-        return Saved(saved, Notice(f"Saved: {written_path(path)}{reason}{other}{_unread_note(saved)}"))
+        text = f"Saved: {written_path(path)}{reason}{_unread_note(saved)}"
+        if theirs is not None:
+            text = f"{text.removesuffix('.')}. The other version is in {whole_name(theirs)}."
+        return Saved(saved, Notice(text))
 
     def _relock(self, entry: _OpenDocument, document: AnyDocument) -> AnyDocument:
         """Replace the lock after a save under another name."""

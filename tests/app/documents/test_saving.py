@@ -263,6 +263,8 @@ def test_a_file_changed_by_another_program_is_noticed_and_both_versions_are_kept
     assert number_in(file) == number
     [copy] = [name for name in names(file) if whose in name and not name.startswith(".")]
     assert copy in operator.said or operator.document.file.path.name == copy
+    if whose == "theirs":
+        assert operator.said == f"Saved: {file.name}. The other version is in {copy}."
     assert {number_in(file.with_name(copy)), number_in(file)} == {3, 7}
     assert not operator.document.unsaved
 
