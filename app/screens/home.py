@@ -41,7 +41,8 @@ from core.pipeline.derived import Derived
 from core.program.file.read import StoreError
 from core.units import Unit
 
-COLUMNS: Final = (("PROGRAM", 17), ("CHANGED", 11), ("BLK", 3), ("TOOLS", 6), ("VERDICT", 12))
+NAME_WIDTH: Final = 17
+COLUMNS: Final = (("PROGRAM", NAME_WIDTH), ("CHANGED", 11), ("BLK", 3), ("TOOLS", 6), ("VERDICT", 12))
 PROMPT: Final = "Up and down choose, Enter opens. Letters jump to a name. F2 starts a new part in inch, F3 in mm."
 
 
@@ -137,7 +138,7 @@ class HomeScreen(BaseScreen):
         return ", ".join([counted(programs, "program"), *words] if programs or not words else words)
 
     def _cells(self, each: Listed) -> Sequence[Content]:
-        name = Content.styled(each.name, "" if each.example else "bold")
+        name = Content.styled(each.name, "" if each.example else "bold").truncate(NAME_WIDTH, ellipsis=True)
         if each.folder:
             return name, *(Content(""),) * 4
         if each.kind:

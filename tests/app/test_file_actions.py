@@ -8,7 +8,7 @@ from dataclasses import replace
 from pathlib import Path
 
 import pytest
-from textual.widgets import Static
+from textual.widgets import DataTable, Static
 
 from app.app import CutcompApp
 from app.documents import times
@@ -198,6 +198,14 @@ async def test_a_message_is_gone_when_its_screen_comes_back_from_behind_another_
         await user.press("ctrl+o", "escape")
         assert user.at == "segment"
         assert user.prompt.startswith("Enter a segment number")
+
+
+async def test_a_name_that_is_too_long_for_its_column_ends_with_dots(folder):
+    (folder / "holder for the small vise.dxf").write_bytes((DATA / "d01-square.dxf").read_bytes())
+    async with at_work(folder) as user:
+        await user.press("ctrl+o", *"holder")
+        row = user.app.screen.query_one("#programs", DataTable).get_row_at(1)
+        assert str(row[0]) == "holder for the s…"
 
 
 async def test_letters_typed_in_quick_succession_spell_one_name(folder):
