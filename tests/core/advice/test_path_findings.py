@@ -151,6 +151,7 @@ def test_a_blend_arc_that_gouges_is_an_error_at_either_end() -> None:
     assert [segment for _, segment, _ in blends] == [3.0, 3.0]
     assert blends[0][2].startswith("The blend-in arc gouges ")
     assert blends[1][2].startswith("The blend-out arc gouges ")
+    assert blends[1][2].endswith("Start elsewhere or reduce BLEND OFFSET with F4.")
     assert not messages(work(narrow, closed=True, blend=0.1), "BLEND_GOUGES")
 
 
@@ -159,9 +160,13 @@ def test_a_blend_arc_that_crosses_a_wall_is_reported_with_its_free_end() -> None
     assert begin == (
         Severity.WARNING,
         1.0,
-        "The blend-in arc from X -0.400 Y 1.650 crosses a wall. Reduce BLEND OFFSET.",
+        "The blend-in arc from X -0.400 Y 1.650 crosses a wall. Reduce BLEND OFFSET with F4.",
     )
-    assert end == (Severity.WARNING, 5.0, "The blend-out arc to X 2.400 Y 1.650 crosses a wall. Reduce BLEND OFFSET.")
+    assert end == (
+        Severity.WARNING,
+        5.0,
+        "The blend-out arc to X 2.400 Y 1.650 crosses a wall. Reduce BLEND OFFSET with F4.",
+    )
 
 
 def test_moves_are_named_by_their_part_of_the_path() -> None:

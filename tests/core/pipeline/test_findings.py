@@ -112,8 +112,8 @@ def test_blend_arcs_that_cross_a_wall_are_reported(offset):
     messages = [sentence(finding, Unit.IN) for finding in derived_block.findings if finding.code == "BLEND_LEAVES"]
     far = [f"{place:.4f}" for place in (1 - offset, 1 + offset, 0.25 + offset)]
     expected = [
-        f"The blend-in arc from X {far[0]} Y {far[2]} crosses a wall. Reduce BLEND OFFSET.",
-        f"The blend-out arc to X {far[1]} Y {far[2]} crosses a wall. Reduce BLEND OFFSET.",
+        f"The blend-in arc from X {far[0]} Y {far[2]} crosses a wall. Reduce BLEND OFFSET with F4.",
+        f"The blend-out arc to X {far[1]} Y {far[2]} crosses a wall. Reduce BLEND OFFSET with F4.",
     ]
     assert messages == (expected if offset > 1.0 else [])
 
