@@ -137,7 +137,7 @@ class ImportScreen(BaseScreen):
         Softkey("START", "start", "START", lambda screen: screen.contour is not None, "The list is empty."),
         Softkey("REVERSE", "reverse", "REVERSE", lambda screen: screen.contour is not None, "The list is empty."),
         Softkey("DRAW", "large", "DRAW"),
-        Softkey("EXIT takes nothing", "app.back", "EXIT"),
+        Softkey("EXIT takes nothing", "close", "EXIT"),
     )
     MORE_KEYS: ClassVar[tuple[tuple[str, str], ...]] = (("Spc", "MARK"), ("/", "FILTER"), ("?", "KEYS, HELP"))
     PALETTE_ACTIONS: ClassVar[tuple[tuple[str, str, str], ...]] = (
@@ -378,7 +378,7 @@ class ImportScreen(BaseScreen):
         drawing.subject = Picked(self._backdrop, self.chosen, self.unit, view)
 
     def _about(self) -> list[Content]:
-        """Return three lines: start and direction, problems or fitted arcs, and what the reader did to the drawing."""
+        """Return start and direction, problems or fitted arcs, and what the reader did to the drawing, line by line."""
         contour, listed, unit = self.contour, self.listed, self.unit
         if listed is None:
             return []
@@ -386,7 +386,9 @@ class ImportScreen(BaseScreen):
         if contour is not None:
             first = f" start {place(contour.start, unit)}{start_words(contour)}"
             second = self._remark(contour)
-        return [Content(first), second, Content.styled(" " + "  ".join(sentences(listed, unit)), "$c-label")]
+        about = Content.styled(" " + "  ".join(sentences(listed, unit)), "$c-label")
+        # without a second line the sentences have room for two
+        return [each for each in (Content(first), second, about) if each.plain]
 
     def _remark(self, contour: Contour) -> Content:
         branch = self._branch_of(contour)
@@ -604,7 +606,9 @@ class ImportScreen(BaseScreen):
             self.action_close()
 
     def action_close(self) -> None:
-        """Leave the screen; the program stays as it is."""
+        """Leave the screen; the program stays as it is, and START, REVERSE and the marks are forgotten."""
+        if self.listed is not None:
+            self.app.notify(f"Nothing is taken from {self.path.name}. Ctrl+O opens it again.", timeout=4)
         self.app.call_later(self.app.run_action, "app.back")
 
     # ---- take

@@ -10,6 +10,7 @@ from math import cos, dist, pi, sin
 from pathlib import Path
 
 import pytest
+from ezdxf.filemanagement import new as new_drawing
 from textual.widgets import DataTable, Label
 
 from app.app import CutcompApp
@@ -328,6 +329,25 @@ async def test_start_and_reverse_change_the_block(tmp_path):
         block = user.session.program.blocks[0]
         assert (block.x_start.value, block.y_start.value) == (9.0, 30.0)
         assert block.cutter_comp is CutterComp.RIGHT
+
+
+async def test_what_the_reader_says_about_a_spline_is_readable_at_80_columns(tmp_path):
+    document = new_drawing()
+    document.header["$INSUNITS"] = 4
+    document.modelspace().add_spline([(0, 0, 0), (40, 10, 0), (60, 40, 0), (30, 60, 0)])
+    document.saveas(tmp_path / "curve.dxf")
+    async with importer(tmp_path / "curve.dxf", tmp_path) as user:
+        told = user.importing.query_one("#import-about")
+        rows = [told.render_line(row).text.strip() for row in range(told.content_size.height)]
+        assert "A SPLINE has fit points only: the curve through them is calculated." in " ".join(rows)
+
+
+async def test_leaving_says_that_nothing_is_taken_and_how_the_drawing_comes_back(tmp_path):
+    for key in ("escape", "f8"):
+        async with importer(dxf(*square(0, 0, 50)), tmp_path) as user:
+            await user.press("space", key)
+            said = "Nothing is taken from part.dxf. Ctrl+O opens it again."
+            assert said in [each.message for each in user.app._notifications]
 
 
 async def test_fit_arcs_shows_both_counts_and_restores_the_lines(tmp_path):
