@@ -76,6 +76,10 @@ class KeyOrder:
             return [self.app]
         return [*(self.app.focused or self.app.screen).ancestors_with_self]
 
+    def pumps(self) -> list[MessagePump]:
+        """Return the widgets on that path and all others of the screen: a key can have work for any of them."""
+        return [*self.focus_path(), *(self.app.screen.walk_children() if self.app.screen_stack else ())]
+
 
 class _Walk:
     """The callback that follows one key from queue to queue."""
@@ -106,7 +110,7 @@ class _Walk:
     def _next_round(self) -> None:
         """Go around again while messages wait; else check once more after the callbacks already scheduled."""
         self._rounds -= 1
-        if self._rounds > 0 or any(pump.message_queue_size for pump in self.order.focus_path()):
+        if self._rounds > 0 or any(pump.message_queue_size for pump in self.order.pumps()):
             self._rest = self.order.focus_path()
             self.go()
         else:

@@ -68,6 +68,14 @@ async def test_keys_after_the_one_that_opens_a_file_go_to_that_file(part: Path, 
         service.stop()
 
 
+async def test_numbers_after_a_command_of_the_palette_go_to_the_form_that_it_opens():
+    async with operator() as user:
+        await user.press("f8", "ctrl+k", *"shift block")
+        await burst(user, "enter", "3", "enter", "1", "enter")
+        assert user.session.block.x_start == Number(5.0)
+        assert user.session.block.y_start == Number(1.25)
+
+
 async def test_random_keys_sent_at_once_act_as_when_sent_one_by_one():
     random = Random(20261123)
     keys = ("pagedown", "pageup", "tab", "down", "up", "enter", "1", "2", "5", "escape", "ctrl+z", "backspace")
