@@ -23,28 +23,29 @@ class Severity(StrEnum):
 
 @dataclass(frozen=True, slots=True)
 class Finding:
-    """One message and the place it belongs to.
-
-    `code` is a stable word such as GOUGE, or a control's rule id.  `segment` is a programmed number k
-    or k + 1/2 for the corner arc after it; `field` a field's name in `core.program.fields`.
-    `last_segment` is where the finding ends if it runs over several segments in the contour's order.
-    `at` (x, y) and `value` are millimeters, `lengths` further millimeters that the text uses.
-    `line` and `column` count from 1 in an imported program.  `area` is in square millimeters.
-    `block` counts from 1 if the findings of several blocks are listed together.
-    `tool` is the number or name of the tool whose size a control lacks.
-    """
+    """One message and the place it belongs to; all lengths are in millimeters."""
 
     code: str
+    """A stable word such as GOUGE, or a control's rule id."""
     severity: Severity
     text: str
+    """The sentence, in which {value}, {0}, {1} ... stand for `value` and `lengths`."""
     segment: float | None = None
+    """A programmed number k, or k + 1/2 for the corner arc after it."""
     field: str | None = None
+    """A field's name in `core.program.fields`."""
     at: tuple[float, float] | None = None
     value: float | None = None
     lengths: tuple[float, ...] = ()
+    """Lengths that the text uses besides `value`."""
     line: int | None = None
     column: int | None = None
+    """Line and column count from 1 in an imported program."""
     area: float | None = None
+    """Square millimeters."""
     block: int | None = None
+    """Counts from 1 if the findings of several blocks are listed together."""
     last_segment: float | None = None
+    """Where the finding ends if it runs over several segments in the contour's order."""
     tool: int | str | None = None
+    """The number or name of the tool whose size a control lacks."""

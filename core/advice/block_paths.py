@@ -28,17 +28,17 @@ class RoughPass:
 
 @dataclass(frozen=True, eq=False, slots=True)
 class BlockPaths:
-    """Every path of a block and its effect on the surface.
-
-    `surface` is the determined part of the contour; `loops` the finish path that is posted, a single loop or, for PATH
-    BEST, all of its loops, and `verdict` the judgment on it.  `compensated` is the control's path, posted or not.
-    `compensated` and `verdict` are None for CUTTER COMP. ON, where the center runs on the contour itself.
-    `rough` comes before, outermost first.  `best` is the best path if PATH is BEST.
-    """
+    """Every path of a block and its effect on the surface."""
 
     surface: Path
+    """The determined part of the contour."""
     loops: tuple[CenterPath, ...]
+    """The finish path that is posted: a single loop or, for PATH BEST, all of its loops."""
     compensated: Compensated | None
+    """The control's path, posted or not; None for CUTTER COMP. ON, where the center runs on the contour."""
     verdict: Verdict | None
+    """The judgment on `loops`; None for CUTTER COMP. ON."""
     rough: tuple[RoughPass, ...] = ()
+    """The passes before, outermost first."""
     best: BestPath | None = None
+    """The best path if PATH is BEST."""

@@ -42,28 +42,30 @@ class Change:
 
 @dataclass(frozen=True, eq=False, slots=True)
 class Stretch:
-    """Compensated moves: from the move that turns compensation on to the one that leaves it.
-
-    `programmed` are the moves as written, without compensation, with their start point as row 0: the part's surface.
-    `entry` and `exit` count the moves at its beginning and end that lead in and out and are not surface.  `first` ...
-    `last` - 1 are the stretch's rows in the run's moves.  `radius` is in millimeters and positive: `side` is already
-    the one that a negative radius flips to.  `led_in` and `led_out`: the control enters and leaves on leads of its own,
-    not in programmed moves.  `changes`: where its side or radius changes.  `wear`: its radius
-    is a small negative one, the wear of a program that describes the cutter's center path.
-    """
+    """Compensated moves: from the move that turns compensation on to the one that leaves it."""
 
     side: Side
+    """The side of the tool; a negative radius in the program has already flipped it."""
     radius: float
+    """Millimeters, positive."""
     plane: Plane
     programmed: Moves
+    """The moves as written, without compensation, with their start point as row 0: the part's surface."""
     entry: int
+    """How many of them lead in at the beginning, and are not surface."""
     exit: int
+    """How many of them lead out at the end."""
     first: int
     last: int
+    """The stretch has the rows `first` ... `last` - 1 of the run's moves."""
     led_in: bool = False
+    """The control enters on a lead of its own, not in a programmed move."""
     led_out: bool = False
+    """The control leaves on a lead of its own."""
     changes: tuple[Change, ...] = ()
+    """Where its side or radius changes."""
     wear: bool = False
+    """The radius is a small negative one: the wear of a program that describes the cutter's center path."""
 
     def has_part(self, part: Stretch) -> bool:
         """True if `part` is this stretch or a part of it; the next stretch may begin where this one ends."""

@@ -61,34 +61,28 @@ class Floor:
 
 @dataclass(frozen=True, eq=False, slots=True)
 class Job:
-    """One block, ready for passes.
-
-    `surface` is the programmed contour; its piece numbers and those of every run are those of `floors`, k + 1/2 for the
-    corner arc after k.  `cutter` is the block's TOOL, `finisher` its FINISH TOOL; either is None if the block
-    names none or the table has none, and then a finding says so.
-
-    `finish` are the runs at full size, in order: one, or one for each loop of the best path.  `rough` are the runs
-    before them, outermost first, cut by `cutter`: PROFILE's passes, and with a finish tool also the run that leaves
-    FINISH XY.  Without a finish tool `cutter` cuts `finish` too.
-
-    `finish_z` is the stock that roughing leaves on the floor if a finish tool follows.  `peck_depth` 0 means full depth
-    in one pass.  `rapid_rate` is in mm per minute; `rapid_assumed` if nobody has typed it.  `lookahead` is text such as
-    "CAL 8", empty for ON.  `findings` are all of the block's; any error among them blocks posting.  `notes` are further
-    sentences for the posted header.
-    """
+    """One block, ready for passes; millimeters, and millimeters per minute."""
 
     block: int
     comp: str
     cutter: Cutter | None
+    """The TOOL; None if the block names none or the table has none, and then a finding says so."""
     finisher: Cutter | None
+    """The FINISH TOOL; None for the same reasons."""
     surface: Path
+    """The programmed contour."""
     floors: tuple[Floor, ...]
+    """By the piece numbers of `surface` and of every run: k, and k + 1/2 for the corner arc after k."""
     finish: tuple[CenterPath, ...]
+    """The runs at full size: one, or one for each loop of the best path.  Without a finish tool `cutter` cuts them."""
     rough: tuple[CenterPath, ...]
+    """The runs before, outermost first: PROFILE's passes and, with a finish tool, the run that leaves FINISH XY."""
     z_start: float
     z_bottom: float
     peck_depth: float
+    """0 for full depth in one pass."""
     finish_z: float
+    """The stock that roughing leaves on the floor if a finish tool follows."""
     retract_clearance: float
     peck_clearance: float
     plunge_feed: float
@@ -98,10 +92,14 @@ class Job:
     work_offset: int = 54
     coolant: Coolant = Coolant.OFF
     lookahead: str = ""
+    """Text such as "CAL 8", empty for ON."""
     rapid_rate: float = 5080.0
     rapid_assumed: bool = True
+    """Nobody has typed the rapid rate."""
     findings: tuple[Finding, ...] = ()
+    """All of the block's; any error among them blocks posting."""
     notes: tuple[str, ...] = ()
+    """Further sentences for the posted header."""
 
     @property
     def levels(self) -> frozenset[tuple[float, float, float | None]]:

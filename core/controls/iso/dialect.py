@@ -106,71 +106,81 @@ def codes(*groups: CodeGroup) -> Mapping[int, Code]:
 
 @dataclass(frozen=True, slots=True)
 class Dialect:
-    """How a control reads programs: everything that is data rather than a rule of compensation.
-
-    `mode` is the motion in force at the start, None if the control refuses axis words without one.
-    `absolute_centers`: under G90, I, J, K count from the origin, not from the arc's start.
-    `moves_alone`: G0 or G1 without an axis is a move of no length.  `feed_needed`: a move at feed needs an F.
-    `loads_at_t`: the T word itself puts the tool in force; otherwise M6 does.  `table_needed`: a tool that is not in
-    the table cannot be selected.  `unit_first`: the F of a block is in the unit that the block sets.
-    `percent_ends`: a second line of % ends the program.  `end_needed`: the program must end with M2, M30 or that line.
-    `group_rule`: the id of the rule against two G codes of one group.  `parameters`: how the control keeps a program's
-    parameters, None if nothing is known of them.  `cycles`: its drilling cycles are known; `cycle_rule`: the id of
-    the rule against them under compensation; `returns_to_r`: G99 is in force at the start.
-    `cycle_r_needed`: a cycle's first block must have R.  `d_anywhere`: any block may have D and H.
-    `dwell_takes_axes`: X with G4 is a time, or may be.  `rate_clears_feed`: G94 and G95 clear the feed even if already
-    in force.  `tool_data_kinds`: the values of L with which G10 sets a tool's data.  `tells_unused`: words that nothing
-    uses are reported.  `rule_names`: the control's own alarm numbers.  `last_code_counts`: of two codes of one group
-    the last counts, with a warning.  `repeat_letters`: the letters for how often a drilling cycle runs.
-    `fanuc_cycles`: a cycle's R and depth stay heights when G90 and G91 change, and 0 repeats only store them.
-    `homes_all`: G28 without an axis moves all axes.  `m97_calls`: M97 calls a block of the program, and the P of M98
-    is only a program's number.  `program_names`: a name in angle brackets may replace O and its number.
-    `without_point`: what makes X10 ten least increments.  `diameters_apart`: D has a memory of its own, in diameters.
-    `scales_axes`: G51 takes I, J and K.  `macro_codes`: the parameters that make G codes macros.  `g54_takes_p`: G54 P
-    is G54.1 P.
-    `rounding_moves`: what rounding leaves between two equal positions is a move, as LinuxCNC's interpreter has it.
-    `max_repeated_blocks`: how many blocks subprograms and loops may repeat before cutcomp gives up the run.
-    """
+    """How a control reads programs: everything that is data rather than a rule of compensation."""
 
     codes: Mapping[int, Code]
     unit: Unit
     mode: int | None = 0
+    """The motion in force at the start; None if the control refuses axis words without one."""
     absolute_centers: bool = False
+    """Under G90, I, J and K count from the origin, not from the arc's start."""
     arc_tolerance: ArcTolerance = USUAL_ARC_TOLERANCE
     syntax: Syntax = PLAIN_SYNTAX
     moves_alone: bool = False
+    """G0 or G1 without an axis is a move of no length."""
     feed_needed: bool = False
+    """A move at feed needs an F."""
     loads_at_t: bool = False
+    """The T word itself puts the tool in force; otherwise M6 does."""
     subprograms: bool = True
     table_needed: bool = False
+    """A tool that is not in the table cannot be selected."""
     unit_first: bool = True
+    """The F of a block is in the unit that the block sets."""
     percent_ends: bool = False
+    """A second line of % ends the program."""
     end_needed: bool = False
+    """The program must end with M2, M30 or a second line of %."""
     group_rule: str = "GROUP"
+    """The id of the rule against two G codes of one group."""
     parameters: ParameterStore | None = None
+    """How the control keeps a program's parameters; None if nothing is known of them."""
     cycles: bool = True
+    """Its drilling cycles are known."""
     cycle_rule: str = "CYCLE"
+    """The id of the rule against drilling cycles under compensation."""
     returns_to_r: bool = False
+    """G99 is in force at the start."""
     cycle_r_needed: bool = True
+    """A cycle's first block must have R."""
     d_anywhere: bool = False
+    """Any block may have D and H."""
     dwell_takes_axes: bool = True
+    """X with G4 is a time, or may be."""
     rate_clears_feed: bool = False
+    """G94 and G95 clear the feed even if already in force."""
     tool_data_kinds: frozenset[int] = frozenset()
-    tells_unused: bool = True
+    """The values of L with which G10 sets a tool's data."""
+    reports_unused: bool = True
+    """Words that nothing uses are reported."""
     rule_names: Mapping[str, str] = field(default_factory=dict)
+    """The control's own alarm numbers, by the ids of the rules that controls share."""
     last_code_counts: bool = False
+    """Of two codes of one group the last counts, with a warning."""
     repeat_letters: str = "L"
+    """The letters for how often a drilling cycle runs."""
     fanuc_cycles: bool = False
+    """A cycle's R and depth stay heights when G90 and G91 change, and 0 repeats only store them."""
     homes_all: bool = False
+    """G28 without an axis moves all axes."""
     scales_axes: bool = False
+    """G51 takes I, J and K."""
     m97_calls: bool = False
+    """M97 calls a block of the program, and the P of M98 is only a program's number."""
     program_names: bool = False
-    without_point: str = ""
+    """A name in angle brackets may replace O and its number."""
+    least_increment_setting: str = ""
+    """Under which setting X10 is ten least increments, in words; empty if there is none."""
     diameters_apart: bool = False
+    """D has a memory of its own, in diameters."""
     macro_codes: str = ""
+    """The parameters that make G codes macros."""
     g54_takes_p: bool = False
+    """G54 P is G54.1 P."""
     rounding_moves: bool = False
+    """What rounding leaves between two equal positions is a move, as in LinuxCNC's interpreter."""
     max_repeated_blocks: int = 400_000
+    """How many blocks subprograms and loops may repeat before cutcomp gives up the run."""
 
 
 _ALWAYS_USED: Final = frozenset("NOXYZFSTABCUVW")

@@ -179,7 +179,7 @@ class Machine(ModalState):
                 self._set(code, block)
         if self.dialect.unit_first and "F" in block.words:
             self.feed = block.words["F"] * self.scale
-        if self.dialect.tells_unused:
+        if self.dialect.reports_unused:
             self._warn_of_unused(block)
         return non_modal
 

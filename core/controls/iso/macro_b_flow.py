@@ -711,7 +711,7 @@ class MacroFlow(Flow):
             units = "unit" if abs(value) == 1.0 else "units"
             message = (
                 f"{which} no decimal point. cutcomp takes {word} as {plain(value)} {units}; "
-                f"{self.dialect.without_point} it is {least}."
+                f"{self.dialect.least_increment_setting} it is {least}."
             )
             self.log.report(Severity.WARNING, "FN-POINT", message, *place)
         if not alarmed:

@@ -54,21 +54,20 @@ COMPENSATION_CODES: Final = frozenset((410, 420, 411, 421))
 
 @dataclass(frozen=True, slots=True)
 class Syntax:
-    """How a control writes blocks.
-
-    `semicolon_ends`: a semicolon ends a block instead of beginning a comment.  `tool_data`: slashes separate tool data,
-    as in T4/.75/.2.  `blanks`: a blank separates words; otherwise blanks have no meaning anywhere.  `last_counts`: of
-    two words with the same letter the last counts, with a warning.  `corners`: the control has `,R` and `,C`, which
-    cutcomp does not follow.  `strict`: N comes first, and its number has no point at its end; a line has at most
-    `LONGEST_STRICT` characters, and the file has no byte order mark.
-    """
+    """How a control writes blocks."""
 
     semicolon_ends: bool = False
+    """A semicolon ends a block instead of beginning a comment."""
     tool_data: bool = False
+    """Slashes separate tool data, as in T4/.75/.2."""
     blanks: bool = True
+    """A blank separates words; otherwise blanks have no meaning anywhere."""
     last_counts: bool = False
+    """Of two words with the same letter the last counts, with a warning."""
     corners: bool = False
+    """The control has `,R` and `,C`, which cutcomp does not follow."""
     strict: bool = False
+    """N comes first without a decimal point, lines have at most LONGEST_STRICT characters, no byte order mark."""
 
 
 @dataclass(frozen=True, slots=True)

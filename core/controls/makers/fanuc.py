@@ -87,7 +87,7 @@ DIALECT: Final = Dialect(
     program_names=True,
     g54_takes_p=True,
     scales_axes=True,
-    without_point="at 3401#0 = 0",
+    least_increment_setting="at 3401#0 = 0",
     macro_codes="parameters 6050 to 6059",
 )
 

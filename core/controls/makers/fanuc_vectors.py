@@ -51,20 +51,20 @@ POINT_ARC: Final = 1e-6
 
 @dataclass(frozen=True, slots=True)
 class VectorRules:
-    """The rules that parameters and the kind of control set.
-
-    `type_a`: the start-up and the cancel go straight.  `at_once`: a G41 or G40 without movement moves the tool by
-    itself (type C).  `outside`: how outside corners are rounded.  `blocks_read`: two more than the blocks without
-    movement that the control looks across.  `checks`: crossing vectors are an alarm.  `point_arcs`: an inside arc of
-    the tool's own radius is a point of the path, not an alarm.
-    """
+    """The rules that parameters and the kind of control set."""
 
     type_a: bool = True
+    """The start-up and the cancel go straight."""
     at_once: bool = False
+    """A G41 or G40 without movement moves the tool by itself (type C)."""
     outside: Outside = Outside.LINES
+    """How outside corners are rounded."""
     blocks_read: int = 3
+    """Two more than the blocks without movement that the control looks across."""
     checks: bool = True
+    """Crossing vectors are an alarm."""
     point_arcs: bool = True
+    """An inside arc of the tool's own radius is a point of the path, not an alarm."""
 
 
 @dataclass(frozen=True, slots=True)

@@ -37,7 +37,7 @@ DIALECT: Final[Dialect] = replace(
     scales_axes=False,
     program_names=False,
     g54_takes_p=False,
-    without_point="with setting 162 off",
+    least_increment_setting="with setting 162 off",
     diameters_apart=True,
     macro_codes="parameters 91 to 100",
 )

@@ -57,7 +57,7 @@ DIALECT: Final = Dialect(
     dwell_takes_axes=False,
     rate_clears_feed=True,
     tool_data_kinds=frozenset((1, 10, 11)),
-    tells_unused=False,
+    reports_unused=False,
     rounding_moves=True,
 )
 

@@ -36,29 +36,32 @@ class Radius(Enum):
 
 @dataclass(frozen=True, slots=True)
 class IsoStyle:
-    """How to write for a control.
-
-    `inch` and `metric` are its unit codes, `safe` the lines before anything moves, with `{offset}` for the work offset.
-    `decimals` are for inches and for millimeters.  `absolute`: I and J count from the origin.  `merged`: collinear
-    lines are written as one.  `comments`: the text may hold remarks.  `length`: G43 H names the tool length.  `spaced`:
-    spaces separate words.  `corner_code` sets how the tool goes around outside corners, whatever was in force before;
-    empty if a control has one way only.  `head` and `tail` enclose the whole text.
-    """
+    """How a program is written for a word-address control."""
 
     inch: str
     metric: str
+    """The codes of the two units."""
     safe: tuple[str, ...]
+    """The lines before anything moves, with `{offset}` for the work offset and `{unit}` for the code of the unit."""
     decimals: tuple[int, int]
+    """Of a length in inches and in millimeters."""
     entry: EntryRule
     radius: Radius
     absolute: bool = False
+    """I and J count from the origin."""
     merged: bool = False
+    """Collinear lines are written as one."""
     comments: bool = True
+    """The text may hold remarks."""
     length: bool = True
+    """G43 H names the tool length."""
     spaced: bool = True
+    """Spaces separate words."""
     corner_code: str = ""
+    """Sets how the tool goes around outside corners; empty if the control has one way only."""
     head: tuple[str, ...] = ()
     tail: tuple[str, ...] = ()
+    """The lines before and after the whole text."""
 
     @property
     def writes_work_offset(self) -> bool:
