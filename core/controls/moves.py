@@ -16,7 +16,7 @@ from typing import Final
 import numpy as np
 from numpy.typing import NDArray
 
-from core.geometry.path import EMPTY, Flags, Floats, Path, Rows
+from core.geometry.path import EMPTY, Flags, Floats, Path, runs_of
 from core.tolerance import JOINED, ON_PATH
 
 Point3 = tuple[float, float, float]
@@ -134,17 +134,21 @@ class Moves:
         ends = self.points[:, [first, second]]
         if len(ends) < 2:
             return EMPTY
-        turns = np.where(self.planes[1:] == plane, self.turns[1:], 0).astype(np.int8)
-        moving = np.any(ends[1:] != ends[:-1], axis=1) | (turns != 0)
+        turns, moving = self._turning_and_moving(plane)
         points = np.vstack((ends[:1], ends[1:][moving]))
         centers, numbers = self.centers[1:][moving][:, [first, second]], self.lines[1:][moving].astype(np.float64)
         return Path.of(points, centers, turns[moving], numbers)
 
+    def heights(self) -> Floats:
+        """Return (n, 2) the heights of both ends of each piece of `path()`."""
+        _, moving = self._turning_and_moving(Plane.XY)
+        return np.column_stack((self.points[:-1, 2], self.points[1:, 2]))[moving]
 
-def runs_of(flags: Flags) -> list[Rows]:
-    """Return the rows that have a flag, in groups of consecutive ones."""
-    rows = np.flatnonzero(flags)
-    return np.split(rows, np.flatnonzero(np.diff(rows) > 1) + 1) if len(rows) else []
+    def _turning_and_moving(self, plane: Plane) -> tuple[NDArray[np.int8], Flags]:
+        """Return the turns of the moves as seen on a plane, and flags of those that move there, without the start."""
+        ends = self.points[:, list(plane.axes[:2])]
+        turns = np.where(self.planes[1:] == plane, self.turns[1:], 0).astype(np.int8)
+        return turns, np.any(ends[1:] != ends[:-1], axis=1) | (turns != 0)
 
 
 _ROW: Final = Struct("=6dbb?di")

@@ -276,3 +276,9 @@ def pieces_of(path: Path) -> Pieces:
     """Return the pieces of a path, without a copy."""
     points = as_complex(path.points)
     return Pieces(points[:-1], points[1:], as_complex(path.centers), path.turns)
+
+
+def runs_of(flags: Flags) -> list[Rows]:
+    """Return the rows that have a flag, in groups of consecutive ones."""
+    rows = np.flatnonzero(flags)
+    return np.split(rows, np.flatnonzero(np.diff(rows) > 1) + 1) if len(rows) else []

@@ -16,11 +16,11 @@ from core.controls.control_names import display_name
 from core.controls.control_run import ControlRun, Stretch
 from core.controls.control_tools import ToolTable
 from core.controls.judging.contours_and_leads import split_where_it_closes
-from core.controls.moves import Moves, Plane, runs_of
+from core.controls.moves import Moves, Plane
 from core.controls.registry import UnknownControl, run
 from core.finding import Severity
 from core.geometry.construct import even_arc
-from core.geometry.path import Path
+from core.geometry.path import Path, runs_of
 from core.geometry.piece import Arc, Line, Piece, Side, Turn
 from core.importing.nc_contour import SAME_HEIGHT, CenterPathTool, Cut, NcContour, NcError, NcProgram
 from core.importing.offset_back import offset_back

@@ -30,6 +30,7 @@ from core.geometry.piece import Side
 from core.output.grid import Grid
 from core.output.objections import OVERRIDABLE_CODES, job_errors
 from core.output.passes import z_steps
+from core.pipeline.block_cuts import with_block_cuts
 from core.pipeline.derived import Derived, DerivedBlock
 from core.pipeline.fields_stage import solve_block_fields
 from core.pipeline.jobs import job
@@ -47,10 +48,10 @@ JUDGED_SHARE = 0.9
 
 
 def derive(program: Program, progress: Progress = silent) -> Derived:
-    """Derive every block of a program; `progress` may raise Stopped."""
+    """Derive every block of a program, and what they cut of one another; `progress` may raise Stopped."""
     count = len(program.blocks)
-    blocks = (derive_block(program, at + 1, part(progress, at / count, (at + 1) / count)) for at in range(count))
-    return Derived(program, tuple(blocks))
+    blocks = [derive_block(program, at + 1, part(progress, at / count, (at + 1) / count)) for at in range(count)]
+    return Derived(program, with_block_cuts(blocks, program))
 
 
 def derive_block(program: Program, number: int, progress: Progress = silent) -> DerivedBlock:

@@ -22,7 +22,7 @@ from core.controls.judging.contours_and_leads import (
     split_where_it_closes,
 )
 from core.controls.judging.corner_loops import CornerLoop, without_corner_loops
-from core.controls.judging.crossing_contours import ContourCut, cuts_of_other_contours
+from core.controls.judging.crossing_contours import cuts_of_other_contours
 from core.controls.judging.moves_above import Z_COLUMN, Divided, divided, heights_above
 from core.controls.judging.rapids_at_depth import CutContour, UncompensatedCut, highest_cut, moves_through
 from core.controls.judging.repeated_passes import path_key, without_repeats
@@ -42,6 +42,7 @@ from core.progress import part as part_of
 from core.tolerance import ARC_RADII, GOUGE, ON_PATH
 from core.units import Kind, Unit, decimals_shown, to_mm
 from core.verify.judge import judge
+from core.verify.other_contours import ContourCut
 from core.verify.surface import Leads
 from core.verify.verdict import Gouge, Verdict
 

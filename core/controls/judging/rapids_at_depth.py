@@ -14,9 +14,9 @@ import numpy as np
 
 from core.controls.control_run import ControlRun, Stretch
 from core.controls.judging.moves_above import surface_rows
-from core.controls.moves import Move, Moves, Plane, runs_of
+from core.controls.moves import Move, Moves, Plane
 from core.geometry.nearby import near_pairs
-from core.geometry.path import Flags, Path
+from core.geometry.path import Flags, Path, runs_of
 from core.tolerance import ON_PATH
 from core.verify.judge import judge
 from core.verify.verdict import Gouge

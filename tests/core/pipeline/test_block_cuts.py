@@ -1,0 +1,98 @@
+"""Blocks that cut into one another's contours; the depths are worked out by hand beside each case."""
+
+from __future__ import annotations
+
+import pytest
+
+from core.finding import Severity
+from core.pipeline.derive import derive
+from core.program.model import Block, CutterComp, Number, ProgramParameters
+from tests.core.pipeline.parts import Points, block, program
+
+POCKET = ((1, 0), (4, 0), (4, 3), (0, 3), (0, 0), (1, 0))
+"""Counterclockwise with the tool on the left: inside."""
+
+
+def box(left: float, bottom: float, right: float, top: float) -> Points:
+    """A clockwise rectangle: with the tool on the left, an island."""
+    return ((left, bottom), (left, top), (right, top), (right, bottom), (left, bottom))
+
+
+def island(left: float, bottom: float, right: float, top: float, **changes: Number) -> Block:
+    return block(box(left, bottom, right, top), CutterComp.LEFT, **changes)
+
+
+def cuts(*blocks: Block, parameters: ProgramParameters | None = None) -> list[tuple[int, str, float]]:
+    """The block that cuts into another one, the sentence, and the depth in inches."""
+    derived = derive(program(*blocks, parameters=parameters))
+    findings = [(each.number, found) for each in derived.blocks for found in each.findings]
+    assert not any(found.severity is Severity.ERROR for _, found in findings)
+    return [
+        (number, found.text, round((found.value or 0.0) / 25.4, 4))
+        for number, found in findings
+        if found.code == "OTHER_BLOCK"
+    ]
+
+
+def test_an_island_too_near_to_its_pocket() -> None:
+    """The island is 0.4 from the pocket's left wall and the cutter 0.5 across: each path cuts 0.1 into the other."""
+    pocket, near = block(POCKET, CutterComp.LEFT), island(0.4, 1, 2, 2)
+    first, second = cuts(pocket, near)
+    assert first[::2] == (1, 0.1)
+    assert first[1] == (
+        "The path of 4 cuts {value} into the contour of block 2 at X {x} Y {y}. Check that this wall may be cut."
+    )
+    assert second[::2] == (2, 0.1)
+    assert second[1].startswith("The path of 1 cuts {value} into the contour of block 1 ")
+    assert not cuts(pocket, island(0.5, 1, 2, 2))
+
+
+def test_a_lead_in_that_cuts_an_island() -> None:
+    """The blend-in arc of radius 0.75 begins 0.75 beside and above X 2, Y 0.25: at X 1.25, Y 1, within the island."""
+    blends = ProgramParameters(blend_offset=Number(0.75), blend_overlap=Number(0))
+    pocket = block(((2, 0), *POCKET[1:-1], (2, 0)), CutterComp.LEFT)
+    found = cuts(pocket, island(1, 0.9, 1.5, 2.2), parameters=blends)
+    assert found[0][0] == 1
+    assert found[0][1].startswith("The blend-in arc ")
+
+
+def test_only_what_is_cut_as_deep_counts() -> None:
+    """The island is cut 0.1 deep: the pocket, at 0.25, cuts into it; its own path stays above the pocket's one pass."""
+    pocket, shallow = block(POCKET, CutterComp.LEFT), island(0.4, 1, 2, 2, z_bottom=Number(-0.1))
+    assert [number for number, *_ in cuts(pocket, shallow)] == [1]
+    pecked = block(POCKET, CutterComp.LEFT, peck_depth=Number(0.1))
+    assert [number for number, *_ in cuts(pecked, shallow)] == [1, 2]
+
+
+@pytest.mark.parametrize("finish", [Number(1), Number(2)])
+def test_one_contour_in_two_blocks_is_one_wall(finish: Number) -> None:
+    assert not cuts(block(POCKET, CutterComp.LEFT), block(POCKET, CutterComp.LEFT, tool=finish))
+
+
+def test_a_roughing_contour_that_is_cut_away_is_no_wall() -> None:
+    """The pocket is roughed 0.1 smaller on each side."""
+    rough = block(((1, 0.1), (3.9, 0.1), (3.9, 2.9), (0.1, 2.9), (0.1, 0.1), (1, 0.1)), CutterComp.LEFT)
+    assert not cuts(rough, block(POCKET, CutterComp.LEFT))
+
+
+def test_a_groove_without_compensation_through_a_wall() -> None:
+    """The groove runs from inside the pocket through its wall: the whole cutter is behind it."""
+    groove = block(((2, 1.5), (6, 1.5)), CutterComp.ON)
+    [(number, text, _)] = cuts(block(POCKET, CutterComp.LEFT), groove)
+    assert number == 2
+    assert text.startswith("The path of 1 runs through the contour of block 1 at X {x} Y {y}. ")
+
+
+def test_a_block_that_cannot_be_posted_is_not_compared() -> None:
+    pocket = block(POCKET, CutterComp.LEFT)
+    derived = derive(program(pocket, island(0.4, 1, 2, 2, tool=Number(9))))
+    assert not any(found.code == "OTHER_BLOCK" for each in derived.blocks for found in each.findings)
+
+
+def test_a_finish_tool_and_side_passes_cut_too() -> None:
+    """PROFILE RIGHT comes in from 1.0 outside the island: it cuts into the pocket, whose wall is 0.6 away."""
+    wide = ProgramParameters(blend_offset=Number(0), blend_overlap=Number(0), max_offset=Number(1))
+    around = island(0.6, 1, 2, 2)
+    assert not cuts(block(POCKET, CutterComp.LEFT), around, parameters=wide)
+    profile = block(box(0.6, 1, 2, 2), CutterComp.PROFILE_LEFT)
+    assert [number for number, *_ in cuts(block(POCKET, CutterComp.LEFT), profile, parameters=wide)] == [2]
