@@ -400,8 +400,10 @@ def _judge_part(
 
     rows, cut_away = list(contours), tuple[StandingWall, ...]()
     spans, walls = rows, _walls(whole, rows)
-    results = judged(walls, alone=len(walls) == 1)
-    if any(result.verdict.gouges for result in results):
+    results = list[Judged]()
+    while len(results) < len(walls) and not (results and results[-1].verdict.gouges):
+        results += judged([walls[len(results)]], alone=len(walls) == 1)
+    if results[-1].verdict.gouges:
         spans = [between_lead_arcs(whole, each, stretch, cut_short=run.stops_within(stretch)) for each in rows]
         passes = closed_passes_of(whole, spans, _heights(stretch, whole), stretch.radius)
         standing = walls_of(standing_walls(alike or passes, stretch.side), passes)
@@ -414,6 +416,8 @@ def _judge_part(
         elif spans != rows:
             walls = _walls(whole, spans)
             results = judged(walls, alone=len(walls) == 1)
+        else:
+            results += judged(walls[len(results) :], alone=len(walls) == 1)
     opened = [lines for lines in contours.values() if lines]
     results = [
         replace(result, open_lines=next((lines for lines in opened if result.lines <= lines), frozenset()))

@@ -13,10 +13,11 @@ from __future__ import annotations
 
 from collections import defaultdict
 from collections.abc import Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field, replace
 from math import inf
 from typing import Final
 
+import shapely
 from shapely import STRtree
 from shapely.geometry import Polygon
 
@@ -114,30 +115,61 @@ def walls_of(walls: Sequence[StandingWall], passes: Sequence[ClosedPass]) -> lis
     return [replace(wall, path=joined(paths[wall.shape])) for wall in walls if wall.shape in paths]
 
 
+@dataclass(eq=False, slots=True)
+class _Shape:
+    """The rows of passes of one shape, what they enclose, and that region grown by what its chords may be off."""
+
+    rows: list[int]
+    region: Polygon
+    grown: Polygon
+    reached: dict[float, Polygon] = field(default_factory=dict)
+
+    @staticmethod
+    def of(rows: list[int], region: Polygon) -> _Shape:
+        grown = region.buffer(2.0 * MAX_CHORD_ERROR)
+        shapely.prepare([region, grown])
+        return _Shape(rows, region, grown)
+
+    def runs_as(self, other: _Shape) -> bool:
+        """True if both passes enclose something and run the same way around."""
+        empty = self.region.is_empty or other.region.is_empty
+        return not empty and self.region.exterior.is_ccw is other.region.exterior.is_ccw
+
+    def runs_inside(self, side: Side) -> bool:
+        """True if the cutter runs inside."""
+        return bool(self.region.exterior.is_ccw) is (side is Side.LEFT)
+
+    def contains(self, inner: _Shape) -> bool:
+        """True if its region contains a smaller one; both may share walls."""
+        return bool(self.region.area > inner.region.area and self.grown.contains(inner.region))
+
+    def within_reach(self, distance: float) -> Polygon:
+        """Return its region grown by a distance, shrunk by a negative one."""
+        if distance not in self.reached:
+            self.reached[distance] = self.region.buffer(distance)
+        return self.reached[distance]
+
+
 def standing_walls(passes: Sequence[ClosedPass], side: Side) -> list[StandingWall]:
     """Return the walls of passes in the order of the program; passes of one shape at several heights make one wall."""
-    shapes = defaultdict[PathKey, list[int]](list)
+    rows_of = defaultdict[PathKey, list[int]](list)
     for row, each in enumerate(passes):
-        shapes[each.shape].append(row)
-    walls, runs = list[StandingWall](), list(shapes.values())
-    regions = [passes[rows[0]].region for rows in runs]
-    tree, grown = STRtree(regions), [region.buffer(2.0 * MAX_CHORD_ERROR) for region in regions]
-    for index, (rows, region) in enumerate(zip(runs, regions, strict=True)):
-        path = joined([passes[row].path for row in rows])
-        low = min(passes[row].low for row in rows)
-        near = [each for each in sorted(tree.query(region).tolist()) if _runs_as(region, regions[each])]
-        if _runs_inside(region, side):
-            behind = [each for each in near if _contains(regions[each], region, grown[each])]
-        else:
-            behind = [each for each in near if _contains(region, regions[each], grown[index])]
-        close = [row for each in behind for row in runs[each] if _is_close(region, passes[row], side)]
-        steps = [passes[row] for each in behind for row in runs[each] if passes[row].high > low + ON_PATH]
-        others = [_lowest([*steps, *_cutting(row, passes, close)]) for row in rows]
+        rows_of[each.shape].append(row)
+    shapes = [_Shape.of(rows, passes[rows[0]].region) for rows in rows_of.values()]
+    walls, tree = list[StandingWall](), STRtree([shape.region for shape in shapes])
+    for key, shape in zip(rows_of, shapes, strict=True):
+        path = joined([passes[row].path for row in shape.rows])
+        low = min(passes[row].low for row in shape.rows)
+        near = [shapes[index] for index in sorted(tree.query(shape.region).tolist())]
+        behind = [other for other in near if shape.runs_as(other) and _is_behind(shape, other, side)]
+        close = [row for other in behind for row in other.rows if _is_close(shape, other, passes[row].radius, side)]
+        steps = [passes[row] for other in behind for row in other.rows if passes[row].high > low + ON_PATH]
+        others = [_lowest([*steps, *_cutting(row, passes, close)]) for row in shape.rows]
         highest = None if None in others else max((each for each in others if each), key=lambda other: other.high)
         if highest is None:
-            walls.append(StandingWall(path, low, shape=passes[rows[0]].shape))
+            walls.append(StandingWall(path, low, shape=key))
         else:
-            walls.append(StandingWall(path, low, highest.high, highest.numbers, passes[rows[0]].shape))
+            walls.append(StandingWall(path, low, highest.high, highest.numbers, key))
     return walls
 
 
@@ -151,26 +183,14 @@ def _lowest(passes: Sequence[ClosedPass]) -> ClosedPass | None:
     return min(passes, key=lambda each: each.high, default=None)
 
 
-def _runs_as(wall: Polygon, other: Polygon) -> bool:
-    """True if both passes enclose something and run the same way around."""
-    return not wall.is_empty and not other.is_empty and wall.exterior.is_ccw is other.exterior.is_ccw
+def _is_behind(wall: _Shape, other: _Shape, side: Side) -> bool:
+    """True if the other pass lies in the material of the wall, or on the wall."""
+    return other.contains(wall) if wall.runs_inside(side) else wall.contains(other)
 
 
-def _contains(outer: Polygon, inner: Polygon, grown: Polygon) -> bool:
-    """True if a region, `grown` by what its chords may be off, contains a smaller one; both may share walls."""
-    return bool(outer.area > inner.area and grown.contains(inner))
-
-
-def _is_close(wall: Polygon, other: ClosedPass, side: Side) -> bool:
+def _is_close(wall: _Shape, other: _Shape, radius: float, side: Side) -> bool:
     """True if a pass behind the wall shares no wall with it, and is nowhere farther than its cutter's diameter."""
-    if wall.exterior.distance(other.region.exterior) <= 2.0 * MAX_CHORD_ERROR:
-        return False
-    reach = 2.0 * (other.radius + MAX_CHORD_ERROR)
-    if _runs_inside(wall, side):
-        return bool(wall.contains(other.region.buffer(-reach)))
-    return bool(other.region.buffer(reach).contains(wall))
-
-
-def _runs_inside(wall: Polygon, side: Side) -> bool:
-    """True if the cutter runs inside a closed pass."""
-    return bool(wall.exterior.is_ccw) is (side is Side.LEFT)
+    reach = 2.0 * (radius + MAX_CHORD_ERROR)
+    if wall.runs_inside(side):
+        return bool(other.region.contains(wall.grown) and wall.region.contains(other.within_reach(-reach)))
+    return bool(wall.region.contains(other.grown) and other.within_reach(reach).contains(wall.region))

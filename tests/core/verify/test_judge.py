@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from dataclasses import replace
 from math import inf, isnan, nan, pi, sqrt
 
 import numpy as np
@@ -385,6 +384,8 @@ def test_piece_numbers_of_several_loops_count_pieces_without_length() -> None:
 def test_without_what_stays_uncut_the_rest_of_the_verdict_is_the_same() -> None:
     contour, path = lines((0, 0), (4, 0), (4, 3), (0, 3), (0, 0)), lines((0.2, 0.5), (2, 0.5), (2, 1))
     whole = judge(contour, Side.LEFT, 0.5, path)
+    gouged = judge(contour, Side.LEFT, 0.5, path, measures_uncut=False)
     assert whole.uncut
     assert whole.gouges
-    assert judge(contour, Side.LEFT, 0.5, path, measures_uncut=False) == replace(whole, uncut=())
+    assert not gouged.uncut
+    assert (gouged.gouges, gouged.wrong_side, gouged.loose) == (whole.gouges, whole.wrong_side, whole.loose)
