@@ -52,7 +52,7 @@ def contours_of(path: Path) -> tuple[RowRange, ...]:
     if longest is None:
         return (whole,)
     passes = _passes_between_leads(path, longest) or (_between_leads(path, sums, point_ids, longest),)
-    first, after = passes[0][0], _end_of_overlap(path, (passes[0][0], passes[-1][1]))
+    first, after = passes[0][0], end_of_overlap(path, (passes[0][0], passes[-1][1]))
     contours = (*_within(sums, point_ids, (0, first)), *passes, *_within(sums, point_ids, (after, len(path))))
     contours = tuple(rows for rows in contours if is_closed(path, rows) or not _joins_by_arcs(path, rows))
     return contours if len({path_key(path.part(*rows)) for rows in contours}) <= MAX_CONTOURS else (whole,)
@@ -356,7 +356,7 @@ def _between_arcs(path: Path, sums: Floats, point_ids: list[int], rows: RowRange
         for end in range(rows[1] - 1, begin, -1):
             if point_ids[begin] != point_ids[end] or not _encloses(sums, (begin, end)):
                 continue
-            out = _end_of_overlap(path, (begin, end))
+            out = end_of_overlap(path, (begin, end))
             if not out < rows[1] <= out + MAX_LEAD_MOVES:
                 continue
             arcs = [begin - 1, out]
@@ -420,7 +420,7 @@ def _encloses(sums: Floats, rows: RowRange) -> bool:
     return bool(abs(area) > CLOSED * (last_length - first_length))
 
 
-def _end_of_overlap(path: Path, rows: RowRange) -> int:
+def end_of_overlap(path: Path, rows: RowRange) -> int:
     """Return the first row after a closed run that does not run along its beginning again."""
     first, last = rows
     return last + _running_along(path, last, first, min(len(path) - last, last - first))

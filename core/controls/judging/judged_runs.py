@@ -11,11 +11,13 @@ import numpy as np
 
 from core.controls.control_run import ControlRun, Stretch
 from core.controls.judging.contours_and_leads import (
+    MAX_LEAD_MOVES,
     RowRange,
     between_lead_arcs,
     blend_leads,
     closed_passes,
     contours_of,
+    end_of_overlap,
     has_long_leads,
     is_closed,
     leads_at_corner,
@@ -271,7 +273,11 @@ def _judge_stretch(run: ControlRun, stretch: Stretch) -> list[Judged]:
     open_lines = {rows: frozenset(whole.numbers[slice(*rows)].tolist()) for rows in open_contours}
     surfaces = [programmed_surface(part) for part in parts] if len(parts) > 1 else [whole]
     ends = list(accumulate(map(len, surfaces), initial=0))
-    inner = [_within_part(contours, rows, open_lines) for rows in pairwise(ends)]
+    repeated = [(rows[1], end_of_overlap(whole, rows)) for rows in contours] if len(parts) > 1 else []
+    inner = [
+        _within_part(contours, rows, open_lines) if _longest(_clipped(repeated, rows)) <= MAX_LEAD_MOVES else _own(cut)
+        for rows, cut in zip(pairwise(ends), surfaces, strict=True)
+    ]
     passes = [
         closed_passes_of(cut, list(rows), _heights(part, cut), part.radius)
         for part, cut, rows in zip(parts, surfaces, inner, strict=True)
@@ -306,6 +312,15 @@ def _clipped(contours: Sequence[RowRange], rows: RowRange) -> list[RowRange]:
     """Return what of the contours lies in these rows."""
     clipped = ((max(first, rows[0]), min(last, rows[1])) for first, last in contours)
     return [(first, last) for first, last in clipped if first < last]
+
+
+def _longest(runs: Sequence[RowRange]) -> int:
+    return max((last - first for first, last in runs), default=0)
+
+
+def _own(cut: Path) -> dict[RowRange, frozenset[float]]:
+    """Return the contours of a part that repeats walls of the part before it, and so has them as its own."""
+    return {rows: frozenset() for rows in contours_of(cut)}
 
 
 def _within_part(
@@ -344,7 +359,8 @@ def _with_other_parts(
     for first, last in contours:
         edges = np.clip((first, *rows, last), first, last).tolist()
         # each separately, because a pass of another part does not repeat one of this part
-        surfaces[first, last] = joined([without_repeats(numbered.part(*both)) for both in pairwise(edges)])
+        surface = joined([without_repeats(numbered.part(*both)) for both in pairwise(edges)])
+        surfaces[first, last] = without_corner_loops(surface, result.stretch.side)[0]
     stretch, center = result.stretch, result.center
     gouges, unjudged, slack = _cuts_of(run, stretch, center, list(surfaces.values()), Leads.SEGMENTS)
     cut_away = {wall.shape: wall for wall in standing_walls(passes, stretch.side) if wall.cut_away_by} if gouges else {}

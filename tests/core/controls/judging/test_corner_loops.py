@@ -117,3 +117,30 @@ def test_a_gouge_where_a_loop_leads_to_the_next_depth_is_found(around: str) -> N
     done = run(REPEATED.format(around=around).encode(), "haas:a", ToolTable.of(CutterTool(1, 16.0)))
     assert isinstance(done, ControlRun)
     assert done.stopped_at is not None or any(result.verdict.gouges for result in judge_run(done))
+
+
+ROUGHED = (
+    "G21 G17 G40 G90 F400\nG0 X-40. Y-40.\nG1 Z-10.\nG41 D2 X0. Y-30.\nY50.\nX80.\nY0.\nX-30.\nY-30.\n"
+    "D1 X0.\n{finish}X-30.\nG40 X-40. Y-40.\nM30\n"
+)
+"""A plate of 80 by 50 cut with D2 and then with D1, with a loop around the corner X0 Y0 between both."""
+
+
+@pytest.mark.parametrize(
+    ("finish", "line"),
+    [
+        ("Y50.\nX80.\nY0.\n", None),
+        pytest.param("Y48.\nX80.\nY0.\n", 12, id="a wall too low"),
+        pytest.param("Y50.\nX77.\nY0.\n", 13, id="a wall too near"),
+        pytest.param("Y50.\nX80.\nY3.\n", 14, id="a wall too high"),
+    ],
+)
+def test_a_loop_may_lead_from_the_roughing_offset_to_the_finishing_one(finish: str, line: int | None) -> None:
+    tools = ToolTable.of(CutterTool(1, 12.0), CutterTool(2, 12.5))
+    done = run(ROUGHED.format(finish=finish).encode(), "fanuc:a", tools)
+    assert isinstance(done, ControlRun)
+    assert done.stopped_at is None, done.findings
+    findings = judged_findings(judge_run(done))
+    gouges = {finding.line for finding in findings if finding.severity is Severity.ERROR}
+    assert (line in gouges) if line else not gouges
+    assert line or not [finding for finding in findings if finding.code in ("LEADS", "LEAD-GOUGE", "UNCUT")]
