@@ -97,7 +97,7 @@ class CutcompApp(TransformActions):
         self._opened, self._home, self._check_request = opened, home, check_request
         self.drawing: Path | None = None
         self.settings_file = settings_file or SettingsFile()
-        self.settings = self.settings_file.held
+        self.settings = self.settings_file.settings
         document = None if opened is None else opened.document
         # an NC text opens over a new program
         self.document = document if isinstance(document, ContourDocument) else self.service.new().document
@@ -186,7 +186,7 @@ class CutcompApp(TransformActions):
                 self.show_nc(document, self._check_request)
             elif document.file.path is not None:
                 self.keep_settings(self.settings.using(document.file.path))
-            self.tell_and_ask(self._opened)
+            self.show_notice_and_ask(self._opened)
 
     def on_app_blur(self, event: AppBlur) -> None:
         """Ignore a switch to another window: the field keeps the cursor and its half-typed text."""

@@ -264,7 +264,7 @@ class DerivationActions(App[int]):
         for _ in self.screen_stack[depth + 1 :]:
             self.pop_screen()
 
-    def begin(self, session: Session) -> None:
+    def switch_session(self, session: Session) -> None:
         """Switch to the session of another program, or of the same one under a new name."""
         same = session.program is self.session.program and session.derived is self.session.derived
         if session.program is not self.session.program:

@@ -89,16 +89,16 @@ class FileActions(DerivationActions):
 
     def keep_document(self, document: Document) -> None:
         """Write a document's edits to disk, or say why they are not there."""
-        self.tell(self.disk.do(lambda: self.service.keep(document)))
+        self.show_notice(self.disk.do(lambda: self.service.keep(document)))
 
     def apply(self, edited: Edited, label: str) -> bool:
         """Apply an edit, or say why it is refused; return whether it was applied."""
         if isinstance(edited, Refused):
             self.say(edited.text, Tone.ERROR)
             return False
-        if self.looking:
+        if self.read_only_reason:
             self.try_out(None)
-            self.say(self.looking, Tone.ERROR)
+            self.say(self.read_only_reason, Tone.ERROR)
             return False
         self._change(self.session.with_program(edited, label))
         return True
@@ -159,13 +159,13 @@ class FileActions(DerivationActions):
         """Remove the new segment with the cursor if nothing was typed in it."""
         self._change(self.session.without_empty())
 
-    def tell(self, notice: Notice | None) -> None:
+    def show_notice(self, notice: Notice | None) -> None:
         """Show the service's notice, if any."""
         if notice is not None:
             self.say(notice.text, Tone.WARNING if notice.warning else Tone.PLAIN)
 
     @property
-    def looking(self) -> str:
+    def read_only_reason(self) -> str:
         """Why the program is read-only: someone else has the file open; empty if it may be edited."""
         holder = self.document.file.holder
         if holder is None:
@@ -180,7 +180,7 @@ class FileActions(DerivationActions):
 
     # ---- open
 
-    def adopt(self, opened: Opened[Any]) -> None:
+    def show_opened(self, opened: Opened[Any]) -> None:
         """Show an opened document, then its notice and its question."""
         document = opened.document
         if isinstance(document, NcDocument):
@@ -191,27 +191,27 @@ class FileActions(DerivationActions):
                 self.show_nc(document)
         else:
             self.document = document
-            self.begin(session_of(document))
+            self.switch_session(session_of(document))
             self._uncover(0)
             if document.file.path is not None:
                 self.keep_settings(self.settings.using(document.file.path))
-        self.tell_and_ask(opened)
+        self.show_notice_and_ask(opened)
 
-    def tell_and_ask(self, opened: Opened[Any]) -> None:
+    def show_notice_and_ask(self, opened: Opened[Any]) -> None:
         """Show the notice of an opened document and ask its question, such as whether to restore unsaved work."""
-        self.tell(opened.notice)
+        self.show_notice(opened.notice)
         if opened.offer is not None:
             self._ask_offer(opened.document, opened.offer)
 
     @work(group="offer", description="offer")
     async def _ask_offer(self, document: AnyDocument, offer: Offer) -> None:
-        """Ask, then adopt the resulting document; if it is the same one, the screen stays, even HOME."""
+        """Ask, then show the resulting document; if it is the same one, the screen stays, even HOME."""
         word = await self.ask(offer.ask)
         opened = self.disk.do(lambda: self.service.answer(document, offer, word))
         if opened.document is not document:
-            self.adopt(opened)
+            self.show_opened(opened)
         else:
-            self.tell_and_ask(opened)
+            self.show_notice_and_ask(opened)
 
     async def ask(self, ask: Ask) -> str:
         """Ask a question and return the answer's word; call only in a worker."""
@@ -268,7 +268,7 @@ class FileActions(DerivationActions):
                 self.disk.do(lambda: self.service.close(document))
                 return
             await self.close_documents(self._all_open())
-        self.adopt(opened)
+        self.show_opened(opened)
 
     async def _open_already(
         self, trouble: Trouble, opened: Callable[[], Opened[Any] | Trouble | Path], *, again: bool
@@ -287,7 +287,7 @@ class FileActions(DerivationActions):
         elif await self.may_close("OPEN AGAIN?", self._all_open()):
             await self.close_documents(self._all_open())
             result = self.disk.do(opened)
-            self.adopt(result if isinstance(result, Opened) else self.service.new())
+            self.show_opened(result if isinstance(result, Opened) else self.service.new())
             if isinstance(result, Trouble):
                 self.say(result.text, Tone.ERROR)
 
@@ -307,7 +307,7 @@ class FileActions(DerivationActions):
         if not await self.may_close(title, self._all_open()):
             return False
         await self.close_documents(self._all_open())
-        self.adopt(self.service.new(unit))
+        self.show_opened(self.service.new(unit))
         return True
 
     def _all_open(self) -> list[Document]:
@@ -472,7 +472,7 @@ class FileActions(DerivationActions):
             proof.saved(result.document)
         else:
             self.document = self.document.after_saving(result.document)
-            self.begin(session_of(self.document, self.session))
+            self.switch_session(session_of(self.document, self.session))
             if self.document.file.path is not None:
                 self.keep_settings(self.settings.using(self.document.file.path))
             self.clear_notice()

@@ -124,14 +124,14 @@ class SettingsFile:
     """Writes settings when they change; with `path` None they last for this run only."""
 
     path: Path | None = None
-    held: Settings = field(default_factory=Settings)
+    settings: Settings = field(default_factory=Settings)
     failed: bool = False
 
     def keep(self, settings: Settings) -> str:
         """Write changed settings to disk; return the sentence that says why they cannot be kept, only once."""
-        if settings == self.held:
+        if settings == self.settings:
             return ""
-        self.held = settings
+        self.settings = settings
         if self.path is None or self.failed:
             return ""
         try:

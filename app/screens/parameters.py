@@ -69,18 +69,18 @@ class SettingsForm(FormScreen):
         return tuple(self._cell(field, number // ROWS, session) for number, field in enumerate(self.FIELDS))
 
     def _cell(self, field: Field, column: int, session: Session) -> Cell:
-        held, unit = self.held(session, field.name), session.program.unit
+        held, unit = self.program_value(session, field.name), session.program.unit
         usual = default_value(field.name, unit)
         value = Solved(usual, Origin.USUAL) if held is None and usual is not None else held
         return cell_of(field, value, unit, column)
 
     @abstractmethod
-    def held(self, session: Session, name: str) -> Value | str:
+    def program_value(self, session: Session, name: str) -> Value | str:
         """Return what the program holds in a field."""
 
     def value(self, name: str) -> Value | str:
         """Return what the program holds in a field."""
-        return self.held(self.current_session, name)
+        return self.program_value(self.current_session, name)
 
     def show_session(self, session: Session) -> None:
         """Show the current values."""
@@ -102,7 +102,7 @@ class ParametersScreen(SettingsForm):
     NAME: ClassVar[str] = "PROGRAM PARAMETERS"
     FIELDS: ClassVar[tuple[Field, ...]] = (UNITS, *PARAMETERS)
 
-    def held(self, session: Session, name: str) -> Value | str:
+    def program_value(self, session: Session, name: str) -> Value | str:
         """Return the unit, the path, or a number."""
         if name == "unit":
             return str(session.program.unit)
@@ -183,7 +183,7 @@ class PartSetupScreen(SettingsForm):
     NAME: ClassVar[str] = "PART SETUP"
     FIELDS: ClassVar[tuple[Field, ...]] = SETUP
 
-    def held(self, session: Session, name: str) -> Value | str:
+    def program_value(self, session: Session, name: str) -> Value | str:
         """Return a text or a number."""
         value: Value | str = getattr(session.program.setup, name)
         return value

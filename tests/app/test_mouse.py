@@ -81,6 +81,6 @@ async def test_theme_and_characters_are_kept_in_the_settings():
     async with operator() as user:
         for action in ("light_or_dark", "next_characters"):
             await user.app.run_action(action)
-        held = user.app.settings_file.held
+        held = user.app.settings_file.settings
         assert (held.theme, held.characters) == ("light", "block")
         assert user.app.theme == theme.LIGHT_THEME

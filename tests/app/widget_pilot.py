@@ -84,7 +84,7 @@ class Operator:
     async def begin(self, start: str | Program, segment: int = 0, field: str = "segment") -> None:
         """Show the form of another example or program, with the cursor on a field of its first block."""
         self.app._uncover(0)
-        self.app.begin(session_on(start).at(FormPlace(1, segment), field))
+        self.app.switch_session(session_on(start).at(FormPlace(1, segment), field))
         await self.settle()
         assert self.at == field
 

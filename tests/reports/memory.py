@@ -123,9 +123,9 @@ def another_life(app: Any, told: Told) -> None:
         app.pop_screen()
     for document in documents:
         app.service.close(document)
-    app.adopt(app.service.new() if part == "part.nc" else app.service.open(told.cage / part))
+    app.show_opened(app.service.new() if part == "part.nc" else app.service.open(told.cage / part))
     if part == "part.nc":
-        app.adopt(app.service.open(told.cage / part))
+        app.show_opened(app.service.open(told.cage / part))
     if told.chance.random() < 0.3:
         app.action_home()
 

@@ -67,7 +67,7 @@ def on(start: str | Program, stages: Mapping[str, str]) -> Part:
 
     def begin(app: CutcompApp) -> None:
         app._uncover(0)
-        app.begin(session_on(start))
+        app.switch_session(session_on(start))
 
     return begin, stages
 
