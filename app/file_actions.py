@@ -33,7 +33,7 @@ from app.documents.questions import (
     GO_BACK,
     NEW_PROGRAM,
     SAVE,
-    Ask,
+    QuestionText,
     before_output,
     held_sentence,
     into_which,
@@ -213,7 +213,7 @@ class FileActions(DerivationActions):
         else:
             self.show_notice_and_ask(opened)
 
-    async def ask(self, ask: Ask) -> str:
+    async def ask(self, ask: QuestionText) -> str:
         """Ask a question and return the answer's word; call only in a worker."""
         return await self.push_screen_wait(Question(ask.title, ask.lines, ask.answers, ask.safe))
 
@@ -400,7 +400,7 @@ class FileActions(DerivationActions):
         file = self.session.file
         path = self.disk.do(lambda: with_suffix(resolved_name(path_of_text(text), file), suffix))
 
-        def before() -> Ask | None:
+        def before() -> QuestionText | None:
             refuse_program(path)
             return before_output(path, file)
 
@@ -440,7 +440,7 @@ class FileActions(DerivationActions):
             if not name.strip():
                 return None
             path = path_of_text(name)
-        while isinstance(result := self.disk.do(partial(self.service.save, document, path, agreed)), Ask):
+        while isinstance(result := self.disk.do(partial(self.service.save, document, path, agreed)), QuestionText):
             word = await self.ask(result)
             if word == GO_BACK:
                 return None

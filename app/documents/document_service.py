@@ -1,6 +1,6 @@
 """This module opens, journals, saves and locks documents, and offers the unsaved work that earlier runs left behind.
 
-It knows no screen.  A question for the operator comes back as an `Ask`, a failure as a sentence.
+It knows no screen.  A question for the operator comes back as a `QuestionText`, a failure as a sentence.
 """
 
 from __future__ import annotations
@@ -39,7 +39,7 @@ from app.documents.paths import (
     written_path,
 )
 from app.documents.programs import empty_program, example, examples
-from app.documents.questions import GO_BACK, Ask, held_sentence, name_of, person, whole_name
+from app.documents.questions import GO_BACK, QuestionText, held_sentence, name_of, person, whole_name
 from app.documents.time_limits import FILE_SECONDS, within
 from app.documents.unsaved_work import (
     Unreadable,
@@ -86,7 +86,7 @@ class Trouble:
 class Offer:
     """A question about an opened document; `left` is the unsaved work that it concerns, stored at `path`."""
 
-    ask: Ask
+    ask: QuestionText
     path: Path | None = None
     left: Journal | Unreadable | None = None
     answered: frozenset[Path] = frozenset()
@@ -321,7 +321,7 @@ class DocumentService:
 
     def _question(
         self, document: Document, path: Path, left: Journal | Unreadable, *, chosen: bool
-    ) -> Ask | str | None:
+    ) -> QuestionText | str | None:
         """Return the question about unsaved work, a sentence for users who are not asked, or None if nothing is new."""
         today = self.clock()
         if isinstance(left, Unreadable):
@@ -548,10 +548,10 @@ class DocumentService:
 
     def save(
         self, document: AnyDocument, path: Path | None = None, agreed: frozenset[str] = frozenset()
-    ) -> Saved[AnyDocument] | Ask | Trouble:
+    ) -> Saved[AnyDocument] | QuestionText | Trouble:
         """Write a document to its own file or to `path`; `agreed` holds the answers to earlier questions.
 
-        When an Ask comes back, call again with its answer added to `agreed`.
+        When a QuestionText comes back, call again with its answer added to `agreed`.
         """
         try:
             return self._save(document, path, agreed)
@@ -561,7 +561,7 @@ class DocumentService:
 
     def _save(
         self, document: AnyDocument, path: Path | None, agreed: frozenset[str]
-    ) -> Saved[AnyDocument] | Ask | Trouble:
+    ) -> Saved[AnyDocument] | QuestionText | Trouble:
         entry, file = self._open[document.file.opening], document.file.path
         if path is None and file is None:
             return Trouble(f"{name_of(document)} has no name yet. SAVE AS (Ctrl+K) gives it one.")
@@ -595,14 +595,14 @@ class DocumentService:
             return Trouble(error.text)
         return None
 
-    def _ask_before_other(self, document: Document, target: Path) -> Ask | None:
+    def _ask_before_other(self, document: Document, target: Path) -> QuestionText | None:
         if is_outside_folder(target, document.file.path):
             return questions.write_outside(target, document.file.path, held_by(target))
         return questions.replace_file(target, held_by(target)) if os.path.lexists(target) else None
 
     def _save_own(
         self, entry: _OpenDocument, document: AnyDocument, path: Path, agreed: frozenset[str]
-    ) -> Saved[AnyDocument] | Ask | Trouble:
+    ) -> Saved[AnyDocument] | QuestionText | Trouble:
         """Save a document to its own file."""
         today = self.clock()
         if not agreed or entry.copy is None or os.path.lexists(entry.copy):
@@ -625,7 +625,7 @@ class DocumentService:
             return stop
         return self._write_file(entry, document, path, theirs, link_agreed=questions.WRITE_THERE in agreed)
 
-    def _ask_if_changed(self, document: Document, path: Path, copy: Path, today: str) -> Ask | Trouble | None:
+    def _ask_if_changed(self, document: Document, path: Path, copy: Path, today: str) -> QuestionText | Trouble | None:
         """Return a question if the file differs from what was last read or saved, Trouble if it cannot be read."""
         then = document.file.stamp
         try:

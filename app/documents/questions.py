@@ -47,7 +47,7 @@ class Answer:
 
 
 @dataclass(frozen=True, slots=True)
-class Ask:
+class QuestionText:
     """A question: its title, the lines (what would be lost first), the answers, the word of the preselected one."""
 
     title: str
@@ -86,18 +86,18 @@ def whole_name(path: Path) -> str:
 # ---- before an import
 
 
-def into_which(drawing: Path, document: Document) -> Ask:
+def into_which(drawing: Path, document: Document) -> QuestionText:
     """Ask whether a drawing's contours go into the open program."""
     lines = (f"Contours of {printable(drawing.name)}:",)
     name = "the open program" if document.file.path is None else name_of(document)
     answers = (Answer(ADD, f"after the blocks of {name}"), Answer(NEW_PROGRAM, "of this drawing only"))
-    return Ask("INTO WHICH PROGRAM?", lines, answers, safe=ADD)
+    return QuestionText("INTO WHICH PROGRAM?", lines, answers, safe=ADD)
 
 
 # ---- before leaving
 
 
-def leaving(title: str, documents: Sequence[Document], half_typed: str = "") -> Ask | None:
+def leaving(title: str, documents: Sequence[Document], half_typed: str = "") -> QuestionText | None:
     """Ask before documents are closed, listing those with unsaved changes; None if all are saved.
 
     `half_typed` is the sentence on text that would be lost too.
@@ -107,7 +107,7 @@ def leaving(title: str, documents: Sequence[Document], half_typed: str = "") -> 
         return None
     lines = tuple(map(_unsaved_sentence, unsaved)) + ((half_typed,) if half_typed else ())
     answers = (Answer(DISCARD, "the changes are lost"), Answer(SAVE, "then go on"))
-    return Ask(title, lines, answers)
+    return QuestionText(title, lines, answers)
 
 
 def _unsaved_sentence(document: Document) -> str:
@@ -120,7 +120,7 @@ def _unsaved_sentence(document: Document) -> str:
 # ---- before a file is written
 
 
-def write_outside(path: Path, file: Path | None, holder: Owner | None) -> Ask:
+def write_outside(path: Path, file: Path | None, holder: Owner | None) -> QuestionText:
     """Ask once before a file outside the chosen folder is written; the lines say what would be replaced there."""
     target = Path(os.path.realpath(path))
     whose = "current" if file is None else "program's"
@@ -128,29 +128,29 @@ def write_outside(path: Path, file: Path | None, holder: Owner | None) -> Ask:
     if path.is_symlink():
         lines.append(f"{printable_path(path)} leads there.")
     lines += _replaced(target, holder) if target.exists() else []
-    return Ask("WRITE IN ANOTHER FOLDER?", tuple(lines), (Answer(WRITE_THERE),))
+    return QuestionText("WRITE IN ANOTHER FOLDER?", tuple(lines), (Answer(WRITE_THERE),))
 
 
-def before_output(path: Path, file: Path | None) -> Ask | None:
+def before_output(path: Path, file: Path | None) -> QuestionText | None:
     """Ask before a program's output is written into another folder or over an existing file; None if neither."""
     if is_outside_folder(path, file):
         return write_outside(path, file, None)
     return replace_file(path, None) if os.path.lexists(path) else None
 
 
-def write_through_link(path: Path) -> Ask:
+def write_through_link(path: Path) -> QuestionText:
     """Ask before a document's own file is written if it is a link into another folder."""
     target = printable_path(os.path.realpath(path))
     line = f"{printable_path(path)} is a link to {target} in another folder."
-    return Ask("WRITE IN ANOTHER FOLDER?", (line,), (Answer(WRITE_THERE),))
+    return QuestionText("WRITE IN ANOTHER FOLDER?", (line,), (Answer(WRITE_THERE),))
 
 
-def replace_file(path: Path, holder: Owner | None) -> Ask:
+def replace_file(path: Path, holder: Owner | None) -> QuestionText:
     """Ask before an existing file is replaced."""
     target = f", which leads to {printable_path(os.path.realpath(path))}" if path.is_symlink() else ""
     first, *rest = _replaced(path, holder)
     lines = (f"{printable_path(path)}{target} exists. {first}", *rest)
-    return Ask("REPLACE THE FILE?", lines, (Answer(REPLACE),))
+    return QuestionText("REPLACE THE FILE?", lines, (Answer(REPLACE),))
 
 
 def _replaced(path: Path, holder: Owner | None) -> list[str]:
@@ -158,17 +158,17 @@ def _replaced(path: Path, holder: Owner | None) -> list[str]:
     return [exists] if holder is None else [exists, f"{person(holder)} has it open."]
 
 
-def taken_over(path: Path, owner: Owner, copy: Path) -> Ask:
+def taken_over(path: Path, owner: Owner, copy: Path) -> QuestionText:
     """Ask before saving a document that somebody has taken over since it was opened."""
     lines = (f"{person(owner)} has taken {printable(path.name)} over.",)
     answers = (
         Answer(KEEP_BOTH, f"yours is saved as {whole_name(copy)}"),
         Answer(WRITE_ANYWAY, "under this name; the other terminal is warned"),
     )
-    return Ask("TAKEN OVER: SAVE ANYWAY?", lines, answers, safe=KEEP_BOTH)
+    return QuestionText("TAKEN OVER: SAVE ANYWAY?", lines, answers, safe=KEEP_BOTH)
 
 
-def changed_meanwhile(document: Document, written: str, copy: Path, *, readable: bool) -> Ask:
+def changed_meanwhile(document: Document, written: str, copy: Path, *, readable: bool) -> QuestionText:
     """Ask which version gets the name if the file differs from what was read; both versions are kept.
 
     `written` is when the file was changed, in words; `readable`: the file can be opened as a document of this kind.
@@ -185,25 +185,25 @@ def changed_meanwhile(document: Document, written: str, copy: Path, *, readable:
         Answer(word, f"yours is saved as {whole_name(copy)}"),
     )
     lines = (first, "Which one gets the name? Both are kept.")
-    return Ask(title, lines, answers)
+    return QuestionText(title, lines, answers)
 
 
 # ---- when a file is opened
 
 
-def open_already(owner: Owner, today: str) -> Ask:
+def open_already(owner: Owner, today: str) -> QuestionText:
     """Ask before opening a document that somebody else has open."""
     lines = (held_sentence(owner, today),)
     answers = (
         Answer(LOOK, "nothing can be changed; SAVE AS makes a copy of your own"),
         Answer(TAKE_OVER, "the other terminal is warned before it saves"),
     )
-    return Ask("OPEN ALREADY", lines, answers, safe=LOOK)
+    return QuestionText("OPEN ALREADY", lines, answers, safe=LOOK)
 
 
 def unsaved_work(
     document: Document, journal: Journal, *, mine: bool, me: Owner, living: bool, chosen: bool, today: str
-) -> Ask:
+) -> QuestionText:
     """Ask whether to restore unsaved work; `chosen`: the operator picked it in the list of kept copies."""
     owner, path = journal.head.owner, document.file.path
     name = "No name" if path is None else printable(path.name)
@@ -228,7 +228,7 @@ def unsaved_work(
         refusal = Answer(DISCARD, "kept as a backup; Ctrl+O lists it")
     else:
         refusal = Answer(NOT_MINE, "it stays kept for its owner")
-    return Ask("UNSAVED WORK FOUND", tuple(lines), (Answer(RESTORE), refusal), safe=RESTORE)
+    return QuestionText("UNSAVED WORK FOUND", tuple(lines), (Answer(RESTORE), refusal), safe=RESTORE)
 
 
 def _written_since(document: Document, journal: Journal) -> bool:
@@ -236,7 +236,7 @@ def _written_since(document: Document, journal: Journal) -> bool:
     return document.file.path is not None and now is not None and (then is None or not now.same_content(then))
 
 
-def unreadable_work(document: Document, path: Path, left: Unreadable, today: str) -> Ask:
+def unreadable_work(document: Document, path: Path, left: Unreadable, today: str) -> QuestionText:
     """Report unsaved work that cannot be read, so that nobody overlooks it."""
     who, when = printable(left.user), times.in_words(left.time, today)
     name = UNNAMED_PROGRAM if document.file.path is None else printable(document.file.path.name)
@@ -256,4 +256,4 @@ def unreadable_work(document: Document, path: Path, left: Unreadable, today: str
     if left.ours and not left.hidden:
         answers.append(Answer(DISCARD, "kept as a backup; Ctrl+O lists it"))
     title = "UNSAVED WORK FOUND" if left.hidden or left.owner is not None else "UNSAVED WORK IS DAMAGED"
-    return Ask(title, tuple(lines), tuple(answers), GO_ON)
+    return QuestionText(title, tuple(lines), tuple(answers), GO_ON)

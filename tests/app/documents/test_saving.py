@@ -17,7 +17,7 @@ from app.documents.journal_file import journal_path
 from app.documents.lock import lock_path
 from app.documents.paths import short_path
 from app.documents.programs import empty_program, example
-from app.documents.questions import Ask
+from app.documents.questions import QuestionText
 from tests.app.documents.typist import (
     DEAD,
     ELSEWHERE,
@@ -32,9 +32,9 @@ from tests.app.documents.typist import (
 from tests.app.nc_lines import changed
 
 
-def ask(operator: Typist, path: Path | None = None, *answers: str) -> Ask:
+def ask(operator: Typist, path: Path | None = None, *answers: str) -> QuestionText:
     question = operator.try_to_save(path, *answers)
-    assert isinstance(question, Ask), question
+    assert isinstance(question, QuestionText), question
     return question
 
 

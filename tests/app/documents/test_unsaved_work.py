@@ -15,7 +15,7 @@ from app.documents.document_service import Opened, Trouble
 from app.documents.files import load, save
 from app.documents.journal_file import JOURNAL_SUFFIX, journal_path, lines, set_aside
 from app.documents.programs import example
-from app.documents.questions import Ask
+from app.documents.questions import QuestionText
 from app.documents.unsaved_work import KeptCopy, file_of_copy, kept_copies, never_saved
 from tests.app.documents.typist import (
     ALIVE,
@@ -305,7 +305,7 @@ def test_a_truncated_file_stays_until_the_operator_decides(state: Path, part: Pa
     remainder = part.read_bytes()
     operator = started(state, part).answer("DISCARD").type(3)
     ask = operator.try_to_save()
-    assert isinstance(ask, Ask)
+    assert isinstance(ask, QuestionText)
     assert "part.toml cannot be read. It was written" in words(ask)
     operator.save(None, "FILE AS IT IS")
     assert part.read_bytes() == remainder

@@ -9,7 +9,7 @@ from typing import Any
 from app.documents.document import ContourDocument, Document, FileState, NcDocument
 from app.documents.document_service import DocumentService, Notice, Offer, Opened, Saved, Trouble
 from app.documents.lock import Owner, myself
-from app.documents.questions import Ask
+from app.documents.questions import QuestionText
 from core.program.edit import FormPlace, type_field
 from core.program.model import Number, Program
 from tests.app.nc_lines import changed
@@ -82,7 +82,7 @@ class Typist:
             return self.keep(document.edited(document.history.redo(), document.cursor, document.field_name))
         return self.keep(document.edited(document.text.redo(), document.row))
 
-    def try_to_save(self, path: Path | None = None, *answers: str) -> Ask | Trouble | Saved[Any]:
+    def try_to_save(self, path: Path | None = None, *answers: str) -> QuestionText | Trouble | Saved[Any]:
         return self.service.save(self.document, path, frozenset(answers))
 
     def save(self, path: Path | None = None, *answers: str) -> Typist:
@@ -123,7 +123,7 @@ class Typist:
         self.service.close(self.document)
 
 
-def words(ask: Ask) -> str:
+def words(ask: QuestionText) -> str:
     return " ".join((ask.title, *ask.lines, *(f"{answer.word} {answer.effect}" for answer in ask.answers)))
 
 
