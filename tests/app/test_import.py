@@ -47,7 +47,7 @@ def in_this_process(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr("app.cli.import_contours.Worker", InlineWorker)
 
 
-def test_the_kind_of_each_chain_and_a_frame_around_them_are_told(
+def test_the_kind_of_each_chain_and_a_frame_around_them_are_reported(
     tmp_path: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
     source, out = tmp_path / "frame.dxf", tmp_path / "part.toml"

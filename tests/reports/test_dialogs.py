@@ -41,7 +41,7 @@ def test_no_dialog_is_left_out() -> None:
     assert asked <= {dialog.name for dialog in DIALOGS}
 
 
-def test_what_is_wrong_with_a_dialog_is_told(monkeypatch: pytest.MonkeyPatch) -> None:
+def test_what_is_wrong_with_a_dialog_is_reported(monkeypatch: pytest.MonkeyPatch) -> None:
     """A word that is not there, colors where none are wanted."""
     units = replace(named("UNITS"), words=("no such word",))
     monkeypatch.setattr(Kind, "shown", Colors.NONE)
@@ -50,7 +50,7 @@ def test_what_is_wrong_with_a_dialog_is_told(monkeypatch: pytest.MonkeyPatch) ->
     assert "colors where none are wanted" in told[-1]
 
 
-def test_a_dialog_that_does_not_come_is_told(monkeypatch: pytest.MonkeyPatch) -> None:
+def test_a_dialog_that_does_not_appear_is_reported(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(dialogs, "PATIENCE", 0.1)
     never = replace(named("UNITS"), ready="", keys=(), title="NO SUCH TITLE")
     assert "it does not come" in reached(never, PLAIN, SIZES[0]).trouble[0]

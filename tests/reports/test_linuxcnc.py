@@ -92,7 +92,7 @@ REFUSED_THERE = {
 
 
 @pytest.mark.parametrize("name", REFUSED_THERE)
-def test_what_is_refused_there_is_cut_or_told_here(name, tmp_path):
+def test_what_linuxcnc_refuses_is_cut_or_reported_here(name, tmp_path):
     rs274.require()
     contour, side, sentence, told = REFUSED_THERE[name]
     (theirs,) = witnessed([Part(name, contour, side, closed=False)], tmp_path)
@@ -107,7 +107,7 @@ def test_an_arc_a_hair_larger_than_the_tool_and_three_offsets_in_one_point_are_a
     assert not _rules(lines((0, 500), (0, 0), (200, 0), (200, 500)), Side.LEFT, tmp_path)
 
 
-def test_differences_are_told_by_the_pieces_around_them():
+def test_differences_are_classified_by_the_pieces_around_them():
     path = compensate(SQUARE, Side.RIGHT, RADIUS, 1, closed=False).path
     assert not differences(path, list(path))
     (one,) = differences(path, [piece for row, piece in enumerate(path) if row != 2])

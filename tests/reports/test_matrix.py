@@ -23,7 +23,7 @@ def test_a_terminal_shows_what_it_must(monkeypatch: pytest.MonkeyPatch) -> None:
     assert tally.combinations == {"80x24 ascii": 1}
 
 
-def test_a_wrong_screen_is_told(monkeypatch: pytest.MonkeyPatch) -> None:
+def test_a_wrong_screen_is_reported(monkeypatch: pytest.MonkeyPatch) -> None:
     nothing = Picture(("",) * 24, frozenset())
     monkeypatch.setitem(matrix.RECORDINGS, (SIZE, "ascii", SHORT), [nothing])
     tally = Tally()

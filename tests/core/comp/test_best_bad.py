@@ -18,7 +18,7 @@ from tests.core.comp.best_truth import CLOSE, assert_true, only
 from tests.core.comp.contours import lines
 
 
-def test_over_run_lead_ins_are_walls_on_both_sides_and_told():
+def test_over_run_lead_ins_are_walls_on_both_sides_and_reported():
     overrun = lines((-1, 0), (2, 0), (2, 2), (0, 2), (0, -1))
     best = assert_true(overrun, Side.RIGHT, 0.25, closed=False)
     first, second = best.loops
@@ -57,7 +57,7 @@ def test_an_arc_of_uneven_radii_is_followed_on_its_mean():
     assert hypot(*ends[0]) == pytest.approx(hypot(*ends[1]), abs=1e-9)
 
 
-def test_zero_length_segments_are_passed_over_and_told():
+def test_zero_length_segments_are_skipped_and_reported():
     doubled = lines((0, 0), (0, 0), (2, 0), (2, 2), (2, 2), (0, 2), (0, 0))
     best = best_path(doubled, Side.LEFT, 0.25, closed=True)
     assert [(finding.code, finding.segment) for finding in best.findings] == [("ZERO_LENGTH", 1), ("ZERO_LENGTH", 4)]
@@ -93,7 +93,7 @@ def test_bad_input_gives_a_finding_and_no_loops(name, closed):
     assert code in [finding.code for finding in best.findings]
 
 
-def test_a_scribble_that_lies_on_itself_everywhere_is_told_and_still_true():
+def test_a_scribble_that_overlaps_itself_everywhere_is_reported_and_its_path_is_right():
     points = np.random.default_rng(1).uniform(0, 100, (60, 2))
     scribble = Path.of(points, points[:-1], np.zeros(59, np.int8))
     best = assert_true(scribble, Side.LEFT, 0.2, closed=False)

@@ -44,7 +44,7 @@ def test_neighbors_that_miss_tangency_by_a_rounding_give_one_closed_loop(miss, s
     assert_clean(contour, side, 10.0, best)
 
 
-def test_the_largest_gap_that_was_joined_is_said_once():
+def test_the_largest_joined_gap_is_reported_once():
     """The arc's two radii are made one by moving its center half way back: so much of the miss stays at either end."""
     best = best_path(nearly_tangent(2e-6), Side.LEFT, 10.0, closed=True)
     (finding,) = best.findings
@@ -56,7 +56,7 @@ def test_the_largest_gap_that_was_joined_is_said_once():
 
 
 @pytest.mark.parametrize("first", range(7))
-def test_the_largest_gap_is_said_wherever_the_contour_starts(first: int) -> None:
+def test_the_largest_gap_is_reported_wherever_the_contour_starts(first: int) -> None:
     pieces = list(nearly_tangent(2e-6))
     (finding,) = best_path(Path.from_pieces([*pieces[first:], *pieces[:first]]), Side.LEFT, 10.0, closed=True).findings
     assert finding.lengths == pytest.approx((1e-6, 0.0), abs=1e-10)

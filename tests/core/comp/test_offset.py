@@ -51,7 +51,7 @@ def test_tangent_joint_gets_nothing():
 
 
 @pytest.mark.parametrize(("bend", "parts"), [(1e-7, [SEGMENT] * 2), (1.2e-7, [SEGMENT, BRIDGE, SEGMENT])])
-def test_tangent_is_told_by_the_distance_of_the_ends(bend, parts):
+def test_the_distance_of_the_ends_decides_what_is_tangent(bend, parts):
     assert _chain(lines((0, 0), (1, 0), (2, bend)), Side.LEFT, 0.9).parts.tolist() == parts
 
 

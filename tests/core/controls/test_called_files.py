@@ -55,7 +55,7 @@ def test_a_repeated_call_in_a_loop_adds_the_file_once() -> None:
     assert {*run.moves.lines[1:].tolist()} == {4}
 
 
-def test_findings_of_both_calls_are_told() -> None:
+def test_findings_of_both_calls_are_reported() -> None:
     text = "G21 G90 F9\nG1 X1.\nM98 P7\nM98 P7\nM30\n"
     run = run_with({7: "O7\nG41 D0 G1 X9.\nG40 X1.\nM99\n"}, text, "fanuc:a")
     told = [(finding.line, finding.text.partition(":")[0]) for finding in findings_of(run, "FN-D0")]

@@ -56,6 +56,6 @@ def test_an_offset_that_the_program_sets_or_changes_is_compared_too() -> None:
     assert (said.line, said.value) == (6, 0.5)
 
 
-def test_it_is_told_once_for_an_offset_and_a_tool() -> None:
+def test_a_difference_is_reported_once_for_an_offset_and_a_tool() -> None:
     twice = program(2, "D1").replace("M30\n", f"{PASS.format(side='G41', offset='D1')}M30\n")
     assert len(findings_of(ran(twice, "fanuc:a", t1=10.0, t2=12.0), "OFFSET")) == 1

@@ -513,7 +513,7 @@ def test_an_open_contour_starts_at_the_nearer_of_its_ends_only() -> None:
 
 @pytest.mark.parametrize("place", [(10.0, -5.0), (0.0, 5.0), (20.0, 1.0)])
 @pytest.mark.parametrize("turned", [False, True])
-def test_a_contour_made_again_is_traveled_as_the_one_before_it(place: tuple[float, float], turned: bool) -> None:
+def test_a_contour_made_again_is_traveled_in_the_same_direction(place: tuple[float, float], turned: bool) -> None:
     contour = listed(dxf(*SLOT)).contours[0]
     before = started_at(reversed_contour(contour) if turned else contour, place)
     again = traveled_like(contour, before)

@@ -116,7 +116,7 @@ def test_profile_steps_in_from_the_largest_offset_to_the_finish_stock():
     )
 
 
-def test_more_side_passes_than_are_made_block_posting():
+def test_too_many_side_passes_block_posting():
     parameters = ProgramParameters(max_offset=Number(1.01), pocket_overlap=Number(99.0))
     (result,) = derive(program(block(OUTSIDE_SQUARE, CutterComp.PROFILE_RIGHT), parameters=parameters)).blocks
     (finding,) = result.errors
