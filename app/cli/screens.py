@@ -94,7 +94,7 @@ def make_app(
     settings, trouble = load_settings(settings_file())
     if trouble and opened.notice is None:
         opened = replace(opened, notice=Notice(trouble, warning=True))
-    environment = character_set.own(os.environ)
+    environment = character_set.operators_environment(os.environ)
     name, character_sets = (
         ("", driver.CHARACTER_SETS) if browser else driver.characters(environment, options.characters)
     )
@@ -118,7 +118,7 @@ def make_app(
         app.driver_class = BrowserDriver
     else:
         app.driver_class = driver.TerminalDriver
-        character_set.settle(sys.__stderr__, name)
+        character_set.set_charset(sys.__stderr__, name)
     return app
 
 

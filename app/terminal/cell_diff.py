@@ -19,7 +19,7 @@ from typing import Final, NamedTuple
 
 from rich.cells import cell_len
 
-from app.terminal.fewer_bytes import PLAIN_STYLE, SHOWN_ON_BLANKS, TOKEN, Pen, Style, alike_on_blanks, read
+from app.terminal.fewer_bytes import PLAIN_STYLE, SHOWN_ON_BLANKS, TOKEN, Pen, Style, alike_on_blanks, style_of
 
 NEUTRAL: Final = re.compile(
     r"(?:\x1b\[\?(?:7|25|1000|1003|1004|1006|1015|1016|2004|2026|2048)(?:h|l|\$p)|\x1b\]22;[^\x07\x1b]*(?:\x07|\x1b\\)|\x07)*"
@@ -59,7 +59,7 @@ Line = list[Cell | None]
 
 
 @dataclass(slots=True)
-class Shown:
+class TerminalCells:
     """The cells of the terminal; `size` returns its current columns and rows.
 
     `erases` is True if erased cells take the color in force, as on most terminals; if not, only cells with the
@@ -84,7 +84,7 @@ class Shown:
         if NEUTRAL.fullmatch(data):
             return data
         columns, rows = self._current_size()
-        picture = parsed(data, columns, rows)
+        picture = parse_paint(data, columns, rows)
         if picture is None or not (self.lines or picture.whole(columns, rows)):
             self._drop_known()
             return data
@@ -116,7 +116,7 @@ class Shown:
 
 
 @dataclass(slots=True)
-class Picture:
+class Paint:
     """Runs of text on the terminal, and the cursor (row, column) after them."""
 
     runs: list[Run] = field(default_factory=list)
@@ -170,13 +170,13 @@ def neighbors(line: Line, columns: list[int]) -> Iterator[tuple[int, str, Style]
         yield first, text, style
 
 
-def parsed(data: str, columns: int, rows: int) -> Picture | None:
+def parse_paint(data: str, columns: int, rows: int) -> Paint | None:
     """Return the picture that a text paints; None if it does anything else or leaves the terminal's area."""
     # text before the first cursor position would go wherever the cursor is
-    picture, style, row, column = Picture(), PLAIN_STYLE, rows, 0
+    picture, style, row, column = Paint(), PLAIN_STYLE, rows, 0
     for parameters, place, other, text in TOKEN.findall(data):
         if text:
-            if row >= rows or column + len(text) > columns or not single(text):
+            if row >= rows or column + len(text) > columns or not is_single_cell(text):
                 return None
             picture.runs.append(Run(row, column, text, style))
             column += len(text)
@@ -187,12 +187,12 @@ def parsed(data: str, columns: int, rows: int) -> Picture | None:
         elif other:
             return None
         else:
-            style = PLAIN_STYLE if parameters in ("", "0") else read(parameters)
+            style = PLAIN_STYLE if parameters in ("", "0") else style_of(parameters)
     picture.cursor = row, column
     return picture if row < rows and column < columns else None
 
 
-def single(text: str) -> bool:
+def is_single_cell(text: str) -> bool:
     """True if every character takes one cell."""
     return text.isascii() or all(cell_len(character) == 1 for character in set(text))
 

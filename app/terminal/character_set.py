@@ -40,7 +40,7 @@ def started_with() -> Mapping[str, str] | None:
     return {name: value for name, _, value in pairs}
 
 
-def own(
+def operators_environment(
     environment: Mapping[str, str], started: Callable[[], Mapping[str, str] | None] = started_with
 ) -> Mapping[str, str]:
     """Return the environment with the operator's own LC_CTYPE, not the one that Python may have set.
@@ -96,7 +96,7 @@ def _stand_in(error: UnicodeError) -> tuple[str, int]:
     return lookalike(error.object[error.start : error.end]), error.end
 
 
-def settle(stream: TextIO | None, name: str) -> None:
+def set_charset(stream: TextIO | None, name: str) -> None:
     """Make a stream write this character set; others become one ASCII character each instead of an error."""
     codecs.register_error(LOOKALIKE_ERRORS, _stand_in)
     if stream is not None and hasattr(stream, "reconfigure"):

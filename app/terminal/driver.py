@@ -22,7 +22,7 @@ from textual.drivers.linux_driver import LinuxDriver
 from textual.message import Message
 
 from app.terminal.capabilities import ascii_only
-from app.terminal.cell_diff import Shown
+from app.terminal.cell_diff import TerminalCells
 from app.terminal.character_set import ASCII, UTF_8, charset
 from app.terminal.key_order import KeyOrder
 from app.terminal.split_keys import KEY_WARNINGS, Joined, delay
@@ -65,22 +65,22 @@ class TerminalDriver(LinuxDriver):
         self, app: App[Any], *, debug: bool = False, mouse: bool = True, size: tuple[int, int] | None = None
     ) -> None:
         super().__init__(app, debug=debug, mouse=mouse, size=size)
-        self.shown = Shown(self._get_terminal_size, os.environ.get("TERM", "").startswith(ERASING_TERMS))
+        self.cells = TerminalCells(self._get_terminal_size, os.environ.get("TERM", "").startswith(ERASING_TERMS))
         self.suspended = False
         self.keys = KeyOrder(app)
 
     def write(self, data: str) -> None:
         """Send a picture to the terminal in as few bytes as show it."""
-        if sent := self.shown.write(data):
+        if sent := self.cells.write(data):
             super().write(sent)
 
     def send_message(self, message: Message) -> None:
         """Pass a message from the terminal to the App in its turn; the reader thread calls this."""
         self._loop.call_soon_threadsafe(self.keys.take, message)
 
-    def anew(self) -> None:
+    def send_all(self) -> None:
         """Send everything again, whatever the terminal shows; safe in a signal handler."""
-        self.shown.forget()
+        self.cells.forget()
         self.send_message(events.Callback(self._repaint))
 
     def _repaint(self) -> None:
@@ -94,7 +94,7 @@ class TerminalDriver(LinuxDriver):
         def changed(number: int, frame: FrameType | None) -> None:
             if callable(resized):
                 resized(number, frame)
-            self.anew()
+            self.send_all()
 
         signal.signal(signal.SIGWINCH, changed)
 
@@ -123,7 +123,7 @@ class TerminalDriver(LinuxDriver):
             self.suspend_application_mode()
         self.suspended = False
         super().resume_application_mode()
-        self.anew()
+        self.send_all()
 
     def _request_terminal_sync_mode_support(self) -> None:
         """Send the query, except to terminals that may show the end of it as a letter."""
@@ -136,12 +136,12 @@ class TerminalDriver(LinuxDriver):
     def run_input_thread(self) -> None:
         """Read keys until the program ends or the link drops."""
         parser, joined = XTermParser(self._debug), Joined(ANSI_SEQUENCES_KEYS, delay(os.environ))
-        decode = getincrementaldecoder(typed_in())(errors="replace").decode
+        decode = getincrementaldecoder(input_charset())(errors="replace").decode
         while not self.exit_event.is_set():
             patience = CHECK_SECONDS if joined.due is None else min(CHECK_SECONDS, max(joined.due - monotonic(), 0.0))
             # bytes that are there at the time of a check belong together, however late this thread had its turn
             if select.select([self.fileno], [], [], patience)[0]:
-                data = read(self.fileno)
+                data = read_input(self.fileno)
                 if not data:
                     os.kill(os.getpid(), signal.SIGHUP)
                     return
@@ -149,7 +149,7 @@ class TerminalDriver(LinuxDriver):
             else:
                 keys = joined.tick(monotonic())
             for key in keys:
-                for message in messages(parser, key):
+                for message in messages_of_key(parser, key):
                     self.process_message(message)
 
 
@@ -157,7 +157,7 @@ def redraw(app: App[Any]) -> None:
     """Send everything again, whatever others have written on the terminal."""
     driver = app._driver
     if isinstance(driver, TerminalDriver):
-        driver.anew()
+        driver.send_all()
     else:
         app.refresh()
 
@@ -177,7 +177,7 @@ def take_mouse(app: App[Any], wanted: bool) -> None:
         driver._mouse = wanted
 
 
-def messages(parser: XTermParser, key: str) -> Iterator[Message]:
+def messages_of_key(parser: XTermParser, key: str) -> Iterator[Message]:
     """Yield what Textual's parser makes of a whole key; an unknown key sequence gives nothing, never text."""
     if key in KEY_WARNINGS:
         yield events.Key(key, None)
@@ -190,13 +190,13 @@ def messages(parser: XTermParser, key: str) -> Iterator[Message]:
         yield from () if key.startswith(("\x1b[", "\x1bO")) else rest
 
 
-def typed_in() -> str:
+def input_charset() -> str:
     """Return the character set in which keys arrive: that of the screen, or UTF-8 if that is ASCII."""
     screen = ASCII if sys.__stderr__ is None else lookup(sys.__stderr__.encoding).name
     return UTF_8 if screen == ASCII else screen
 
 
-def read(handle: int) -> bytes:
+def read_input(handle: int) -> bytes:
     """Return what was typed; empty at the end of the input or if the link has dropped."""
     try:
         return os.read(handle, MAX_READ_BYTES)

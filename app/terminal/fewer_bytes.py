@@ -34,7 +34,7 @@ SHOWN_ON_BLANKS: Final = frozenset({"4", "7", "9", "21", "53"})
 
 
 @lru_cache(256)
-def read(parameters: str) -> Style:
+def style_of(parameters: str) -> Style:
     """Return the style that a sequence's parameters give after a reset."""
     attributes, ink, paper = set(), PLAIN_STYLE.ink, PLAIN_STYLE.paper
     rest = parameters.split(";")
@@ -54,7 +54,7 @@ def read(parameters: str) -> Style:
 
 
 @lru_cache(512)
-def change(now: Style, then: Style) -> str:
+def style_change(now: Style, then: Style) -> str:
     """Return the shortest sequence that changes one style into another."""
     if now == then:
         return ""
@@ -95,5 +95,5 @@ class Pen:
 
     def turn(self, wanted: Style) -> None:
         """Change to another style."""
-        self.out.append(change(self.now, wanted))
+        self.out.append(style_change(self.now, wanted))
         self.now = wanted

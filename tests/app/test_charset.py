@@ -7,7 +7,7 @@ from itertools import product
 
 import pytest
 
-from app.terminal.character_set import charset, lookalike, settle
+from app.terminal.character_set import charset, lookalike, set_charset
 from app.terminal.driver import characters
 from core.draw.characters import CELLS_OF_MODE, Mode
 
@@ -73,7 +73,7 @@ def test_each_character_is_replaced_by_one_ascii_character() -> None:
 def test_no_written_text_raises_an_error(name: str, text: str) -> None:
     written = io.BytesIO()
     stream = io.TextIOWrapper(written, encoding="utf-8")
-    settle(stream, name)
+    set_charset(stream, name)
     stream.write(text)
     stream.flush()
     assert len(written.getvalue().decode(name)) == len(text)

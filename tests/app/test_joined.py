@@ -11,7 +11,7 @@ from textual import events
 from textual._ansi_sequences import ANSI_SEQUENCES_KEYS
 from textual._xterm_parser import XTermParser
 
-from app.terminal.driver import messages
+from app.terminal.driver import messages_of_key
 from app.terminal.split_keys import (
     CLICK,
     ESC,
@@ -208,7 +208,7 @@ def keys(*units: str) -> list[tuple[str, str | None]]:
     return [
         (event.key, event.character)
         for unit in units
-        for event in messages(parser, unit)
+        for event in messages_of_key(parser, unit)
         if isinstance(event, events.Key)
     ]
 
@@ -219,6 +219,8 @@ def test_textual_turns_the_sequences_into_keys() -> None:
     assert keys(f"{ESC}[?1;2c", f"{ESC}[1;9z", "7") == [("7", "7")]
     assert keys(f"{ESC}x", "y") == [("alt+x", "x"), ("y", "y")]
     pasted = [
-        event for event in messages(XTermParser(), f"{ESC}[200~1.5\r{ESC}[201~") if isinstance(event, events.Paste)
+        event
+        for event in messages_of_key(XTermParser(), f"{ESC}[200~1.5\r{ESC}[201~")
+        if isinstance(event, events.Paste)
     ]
     assert [event.text for event in pasted] == ["1.5\r"]

@@ -6,7 +6,7 @@ import re
 
 import pytest
 
-from app.terminal.character_set import charset, own
+from app.terminal.character_set import charset, operators_environment
 from tests.reports.matrix import stray
 from tests.terminal import cutcomp, running
 
@@ -73,4 +73,4 @@ def test_a_letter_of_latin_1_is_written_and_read_as_one_byte() -> None:
 def test_an_lc_ctype_set_by_python_is_ignored(
     environment: dict[str, str], started: dict[str, str] | None, name: str
 ) -> None:
-    assert charset(own(environment, lambda: started)) == name
+    assert charset(operators_environment(environment, lambda: started)) == name

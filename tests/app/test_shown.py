@@ -10,7 +10,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from app.terminal.cell_diff import Line, Picture, Shown
+from app.terminal.cell_diff import Line, Paint, TerminalCells
 
 COLUMNS, ROWS = 12, 4
 STYLES = ("", "0", "31", "44", "31;44", "1;38;2;1;2;3;48;5;4", "4", "7", "39;49", "2;44")
@@ -25,7 +25,7 @@ class Watched:
     def __init__(self, *, erases: bool = True) -> None:
         self.ours, self.whole = (self._screen() for _ in range(2))
         self.columns, self.rows = COLUMNS, ROWS
-        self.shown = Shown(lambda: (self.columns, self.rows), erases)
+        self.shown = TerminalCells(lambda: (self.columns, self.rows), erases)
 
     @staticmethod
     def _screen() -> pyte.Screen:
@@ -163,15 +163,15 @@ def test_a_new_size_forgets_the_picture() -> None:
 def test_everything_is_sent_after_forgetting_in_the_middle_of_a_write(monkeypatch: pytest.MonkeyPatch) -> None:
     watched = Watched()
     watched.write(covering("a"))
-    over = Picture.over
+    over = Paint.over
 
-    def resized_meanwhile(picture: Picture, lines: list[Line]) -> Iterator[tuple[int, Line]]:
+    def resized_meanwhile(picture: Paint, lines: list[Line]) -> Iterator[tuple[int, Line]]:
         for row in over(picture, lines):
             watched.shown.forget()
             yield row
 
-    monkeypatch.setattr(Picture, "over", resized_meanwhile)
+    monkeypatch.setattr(Paint, "over", resized_meanwhile)
     watched.write(covering("b"))
-    monkeypatch.setattr(Picture, "over", over)
+    monkeypatch.setattr(Paint, "over", over)
     assert watched.write(covering("b")).count("b") == COLUMNS * ROWS
     assert watched.alike

@@ -9,7 +9,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from app.terminal.fewer_bytes import PLAIN_STYLE, TOKEN, Pen, change, read
+from app.terminal.fewer_bytes import PLAIN_STYLE, TOKEN, Pen, style_change, style_of
 
 STYLES = ("1", "3", "4", "7", "31", "92", "45", "103", "38;5;188;48;5;16", "1;38;2;1;2;3;48;2;4;5;6", "39;49", "0", "")
 TEXTS = ("X", " ", "   ", "word", "│ ", "1.5 ", "é", "\r\n")
@@ -52,7 +52,7 @@ def slim(data: str) -> str:
             pen.turn(wanted)
             pen.out.append(other)
         else:
-            wanted = PLAIN_STYLE if style in ("", "0") else read(style)
+            wanted = PLAIN_STYLE if style in ("", "0") else style_of(style)
     pen.turn(PLAIN_STYLE)
     return "".join(pen.out)
 
@@ -90,8 +90,8 @@ def test_redundant_styles_are_left_out(data: str, sent: str) -> None:
 
 
 def test_changing_a_style_sends_only_what_differs() -> None:
-    style = read("1;38;2;1;2;3;48;5;4")
+    style = style_of("1;38;2;1;2;3;48;5;4")
     assert style == (frozenset({"1"}), "38;2;1;2;3", "48;5;4")
-    assert change(PLAIN_STYLE, style) == "\x1b[1;38;2;1;2;3;48;5;4m"
-    assert change(style, style) == ""
-    assert change(style, PLAIN_STYLE) == "\x1b[0m"
+    assert style_change(PLAIN_STYLE, style) == "\x1b[1;38;2;1;2;3;48;5;4m"
+    assert style_change(style, style) == ""
+    assert style_change(style, PLAIN_STYLE) == "\x1b[0m"

@@ -22,7 +22,7 @@ from pathlib import Path
 from tempfile import TemporaryDirectory
 from typing import Any, Final
 
-from app.terminal.character_set import LOOKALIKE_ERRORS, settle
+from app.terminal.character_set import LOOKALIKE_ERRORS, set_charset
 from tests.reports.recorded import Picture, Step, difference, keys_of, masked, recorded
 from tests.reports.terminals import (
     FUNCTION_KEYS,
@@ -39,7 +39,7 @@ from tests.reports.terminals import (
 from tests.terminal import Terminal, cutcomp, running
 
 ROOT: Final = Path(__file__).parents[2]
-settle(None, "ascii")  # what stands in for characters that a terminal has not
+set_charset(None, "ascii")  # what stands in for characters that a terminal has not
 PART: Final = "pocket"
 PATIENCE: Final = 30.0
 """Seconds until a screen counts as wrong."""
