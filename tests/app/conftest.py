@@ -106,7 +106,7 @@ async def opened() -> AsyncIterator[Operator]:
 
 @pytest_asyncio.fixture(loop_scope="module")
 async def user(opened: Operator) -> Operator:
-    """Begin anew on the pocket example, in the app of the module: to open another would cost most of a test.
+    """Start again on the pocket example, in the app of the module: opening another app would take most of a test.
 
     The module or the test is marked `pytest.mark.asyncio(loop_scope="module")`.
     """
@@ -116,7 +116,7 @@ async def user(opened: Operator) -> Operator:
 
 @pytest.fixture
 def state(tmp_path: Path) -> Path:
-    """The user's state folder, for journals that cannot lie beside a document."""
+    """The user's state folder, for journals that cannot be in the folder of their document."""
     return tmp_path / "own"
 
 

@@ -61,7 +61,7 @@ async def test_undo_takes_away_the_message_that_offers_it(monkeypatch: pytest.Mo
 
 
 async def toasts(user: Operator, count: int) -> None:
-    """Wait until so many messages are over the screen, for less time than they stay."""
+    """Wait until this many messages are over the screen, for less time than they stay."""
     deadline = monotonic() + 20.0
     while len(user.app.screen.query("Toast")) != count and monotonic() < deadline:
         await user.pilot.pause(0.01)

@@ -20,7 +20,7 @@ FORGOTTEN = ("\x1b[?1049h", "\x1b7", "\x1b[2J", "\x1b[3;3H\x1b[K", "wörld\x08",
 
 
 class Watched:
-    """A terminal that receives the differences beside one that receives everything."""
+    """A terminal that receives the differences, and one that receives everything."""
 
     def __init__(self, *, erases: bool = True) -> None:
         self.ours, self.whole = (self._screen() for _ in range(2))

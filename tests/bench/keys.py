@@ -127,7 +127,7 @@ LOOKS = 5
 LONGEST = 20.0
 """Seconds after which a program that still runs is given up."""
 IDLE = 3.0
-"""Seconds in which nobody types."""
+"""Seconds without a key."""
 
 
 @dataclass(frozen=True)
@@ -184,7 +184,7 @@ def first_paint(arguments: list[str], text: str) -> float:
 
 @contextmanager
 def program_at_rest(program: Program) -> Iterator[Terminal]:
-    """The program on a file of its own."""
+    """The program on its own file."""
     with tempfile.TemporaryDirectory() as folder:
         path = Path(folder) / "part.toml"
         save(program, path)

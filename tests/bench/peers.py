@@ -19,7 +19,7 @@ from tests.bench.families import Work
 from tests.rs274 import WITNESS, process
 
 CHORD: Final = 1e-3
-"""Chords leave their arc by no more than so many millimeters."""
+"""The largest distance in millimeters of a chord from its arc."""
 
 CLIPPER: Final = find_spec("pyclipr") is not None
 """Whether Clipper2 is installed."""
@@ -31,7 +31,7 @@ NAMES: Final = ("rs274", "offset_curve", "buffer", "clipper2")
 
 
 def runs(work: Work, folder: File) -> dict[str, Callable[[], object]]:
-    """The peers that are installed and take so many chords, each ready to run."""
+    """The peers that are installed and accept this many chords, each ready to run."""
     made: dict[str, Callable[[], object] | None] = {"rs274": _accepted(interpreter(work, folder))}
     points = chords(work.contour)
     if len(points) <= MOST_CHORDS:

@@ -142,7 +142,7 @@ def test_a_removed_lock_is_not_taken_by_anybody(part: Path) -> None:
 
 @pytest.mark.parametrize("text", ["", "{", "[]", '{"user": 1}', "\x00\xff", "[" * 4000])
 def test_an_unreadable_lock_is_stale(part: Path, text: str) -> None:
-    """A full disk or a power cut leaves such files, and nobody would remove them."""
+    """A full disk or a power cut leaves such files, which no process would remove."""
     lock_path(part).write_text(text)
     assert held_by(part) is None
     assert take(part, ME) == Lock(lock_path(part), ME)

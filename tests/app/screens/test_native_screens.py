@@ -1,4 +1,4 @@
-"""The screens beside MILL CONTOUR: keys go in; the session and the files come out."""
+"""The screens other than MILL CONTOUR: keys in, session and files out."""
 
 from __future__ import annotations
 

@@ -200,7 +200,7 @@ def test_a_slightly_larger_tool_without_blend_moves_is_not_named(blend):
 
 
 def test_advice_without_a_remedy_says_so():
-    """Thirty segments lie behind a slit of 2e-5: no look-ahead reaches so far and no tool is small enough."""
+    """Thirty segments lie beyond a slit of 2e-5: no look-ahead reaches so far and no tool is small enough."""
     slit = 1e-5
     angles = [-pi / 2 - slit - step * (pi - slit) / 15 for step in range(31)]
     cavity = [(cos(angle), 1 + sin(angle)) for angle in angles]

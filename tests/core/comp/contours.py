@@ -60,7 +60,7 @@ rounds = st.builds(
 
 
 def assembled(steps: list[Step]) -> Path:
-    """The contour of steps, one behind the other from the origin along X."""
+    """A contour of steps, one after the other from the origin along X."""
     pieces, at, direction = [], 0j, 1 + 0j
     for step in steps:
         piece, at, direction = step.piece(at, direction)

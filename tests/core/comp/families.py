@@ -34,7 +34,7 @@ def joined(places: Sequence[complex], bulges: Sequence[float] | None = None) -> 
 
 
 def backwards(path: Path) -> Path:
-    """The same pieces from the other end, numbered anew."""
+    """The same pieces from the other end, renumbered."""
     return Path.from_pieces(list(path.reversed()))
 
 

@@ -26,7 +26,7 @@ class Drawing:
     radius: float
 
     def rounded(self, decimals: int) -> Path:
-        """The contour as it is typed from a drawing of so many decimals."""
+        """The contour as it is typed from a drawing with this many decimals."""
         points, centers = (np.round(values, decimals) for values in (self.contour.points, self.contour.centers))
         return Path.of(points, centers, self.contour.turns, self.contour.numbers)
 

@@ -17,7 +17,7 @@ from tests.core.comp.rounded import DECIMALS, drawing, widest_end_gap
 
 
 def nearly_tangent(miss: float) -> Path:
-    """A line, an arc whose center is beside where tangency wants it, and lines back to the start."""
+    """A line, an arc whose center is not where tangency needs it, and lines back to the start."""
     arc = Arc((20.0, 0.0), (30.0, -10.0), (20.0 + miss, -10.0), Turn.CW)
     corners = [(30.0, -10.0), (30.0, -60.0), (90.0, -60.0), (90.0, 50.0), (0.0, 50.0), (0.0, 0.0)]
     back = [Line(*ends) for ends in pairwise(corners)]

@@ -34,7 +34,7 @@ def test_of_a_closed_contour_every_place_and_no_other_is_on_the_path(contour, si
 
 
 def bulged(start: Point, end: Point, bulge: float) -> Piece:
-    """The segment between two points that stands out by bulge times half its chord, to its right if positive."""
+    """The segment between two points that bulges by `bulge` times half its chord, to its right if positive."""
     if abs(bulge) < 0.01:
         return Line(start, end)
     sweep = 4.0 * np.arctan(bulge)

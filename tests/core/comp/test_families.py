@@ -74,7 +74,7 @@ def _true_offset(contour: Path, radius: float) -> shapely.Polygon:
 @settings(max_examples=30, deadline=None, derandomize=True)
 @given(gears() | convex() | rounded() | waves() | notched(), uneven, units, st.booleans())
 def test_with_enough_look_ahead_the_path_outside_is_the_single_curve_that_shapely_has(contour, radius, unit, back):
-    """Started mid-side on what stands out most, and reaching over every gap but not over half the contour."""
+    """Started in the middle of the outermost side, with a look-ahead over every gap but not over half the contour."""
     contour = placed(contour, unit, 0j)
     assume(shapely.LinearRing(chords(contour, CHORD)).is_simple)
     region = _true_offset(contour, radius * unit)

@@ -1,4 +1,4 @@
-"""The raw chain: every segment beside the contour, what stands at the joints, what vanishes."""
+"""The raw chain: the offset of every segment, the pieces at the joints, the segments that vanish."""
 
 from __future__ import annotations
 

@@ -18,7 +18,7 @@ from core.tolerance import ARC_RADII, JOINED
 ROUND = 10.0
 CUTTER = 0.5
 FROM, BACK = 6.0j, 4.0 + 5.0j
-"""Where the line into the arc comes from, and where the one behind it goes."""
+"""Where the line before the arc begins, and where the line after it ends."""
 
 logs = st.floats(-6.0, -1.0).map(lambda power: 10.0**power)
 apart = st.floats(-7.0, np.log10(ARC_RADII) - 1e-9).map(lambda power: 10.0**power)
@@ -92,7 +92,7 @@ def test_the_best_path_of_a_nearly_full_arc_goes_round_it(along, off, out, turn,
 @pytest.mark.parametrize("along", [0.0, 2e-8, -2e-8])
 @pytest.mark.parametrize("turn", [-1, 1])
 def test_an_arc_that_is_a_full_turn_or_none_is_refused(off, along, turn):
-    """Its ends are on one ray from its center, and not one point: nobody knows which of the two is meant."""
+    """Its ends are on one ray from its center, and not one point: it may be empty or a full circle."""
     contour = arc_between_lines(along, off, turn)
     assert abs(along) < JOINED
     best, control = (

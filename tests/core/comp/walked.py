@@ -179,7 +179,7 @@ def _joint(done: Walk, before: Piece, behind: Piece, here: Cut) -> Cut:
 
 
 def _push(done: Walk, here: Cut) -> None:
-    """Test a piece against all earlier ones but its predecessor, then put it behind them."""
+    """Test a piece against all earlier ones but its predecessor, then append it."""
     for row, a in enumerate(done.path[:-1]):
         point = _crossing(done, a, here)
         if point is not None:

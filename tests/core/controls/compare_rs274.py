@@ -166,7 +166,7 @@ KINDS: dict[str, tuple[int, Callable[[int], str]]] = {
     "drilling cycles": (150, drilled),
     "feeds by time and by turn": (100, timed),
 }
-"""Generated programs beside the contours: how many, and what makes them."""
+"""Generated programs besides the contours: how many, and what makes them."""
 
 
 def _code_cases() -> Iterable[tuple[str, str, dict[int, float], Unit]]:
@@ -198,7 +198,7 @@ def _cases(count: int) -> Iterable[tuple[str, str, dict[int, float], Unit]]:
 
 
 def _explanation(name: str, apart: str) -> str:
-    """Why a program fares differently, empty where nobody knows."""
+    """Why a program runs differently; empty if the reason is unknown."""
     if apart == ARC_RUN_AT_STOP:
         return "the interpreter cuts into the corner after a stop, in a way that depends on what it ran before"
     of_code = EXPLAINED_CODES.get(name.rpartition(", ")[2], "")

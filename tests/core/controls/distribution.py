@@ -39,7 +39,7 @@ LIBRARY: dict[str, dict[str, float]] = {
     "slot": {**_DEPTH, "x1": 0, "y1": 0, "x2": 3, "y2": 1},
     "simp": {},
 }
-"""Its subprograms that compensate, and the arguments with which they are called beside their defaults."""
+"""Its subprograms that compensate, and the arguments with which they are called besides their defaults."""
 
 _ARGUMENT = re.compile(r"#<(\w+)>\s*=\s*#(\d+)(?:\s*\(=\s*(-?[\d.]+))?")
 

@@ -28,7 +28,7 @@ def ran(text: str | bytes, control: str, **diameters: float) -> ControlRun:
 
 
 def ran_up_to(text: str, blocks: int, **diameters: float) -> ControlRun:
-    """The run of a program on LinuxCNC, given up when so many blocks have run again."""
+    """The run of a program on LinuxCNC, given up when this many blocks have been repeated."""
     table = end_mills({int(name[1:]): value for name, value in diameters.items()})
     dialect = replace(linuxcnc.DIALECT, max_repeated_blocks=blocks)
     return run_iso(text.encode(), "linuxcnc", dialect, table, linuxcnc.LinuxCnc)

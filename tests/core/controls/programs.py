@@ -156,7 +156,7 @@ def _round(count: int) -> list[tuple[float, float]]:
 
 
 def long(count: int) -> str:
-    """A program of so many blocks of lines and arcs under compensation, all round a large circle."""
+    """A program of this many compensated lines and arcs around a large circle."""
     lines = ["G21 G17 G90 F500", "G0 X-10 Y-10", "G41 D1", "G1 X0 Y0"]
     for index, (x, y) in enumerate(_round(count), 1):
         point = f"X{x:.4f} Y{y:.4f}"

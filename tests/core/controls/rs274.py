@@ -64,7 +64,7 @@ def run_witness(text: Path, table: Path) -> Witnessed:
 
 @dataclass
 class _Feeds:
-    """What the interpreter has said of feeds: the rate in millimeters, whether it is one a turn, the turns a minute."""
+    """The interpreter's feed: the rate in millimeters, whether it is per turn, and the turns per minute."""
 
     scale: float = 1.0
     rate: float = 0.0

@@ -1,4 +1,4 @@
-"""An offset whose radius is not that of the tool in the spindle is told, with what the cutter then does."""
+"""An offset whose radius is not that of the tool in the spindle is reported, with what the cutter then does."""
 
 from __future__ import annotations
 

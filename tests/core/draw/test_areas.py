@@ -52,7 +52,7 @@ def test_a_cutter_sweeps_a_slot_with_round_ends() -> None:
 
 
 def test_the_gouged_area_is_the_part_of_the_material_that_is_swept() -> None:
-    """The cutter of radius 2 runs 1.5 beside the wall: it gouges 0.5 deep, of which the sag is not shaded."""
+    """The cutter of radius 2 runs 1.5 away from the wall: it gouges 0.5 deep, of which the sag is not shaded."""
     part = material(SQUARE, Side.RIGHT, 2.0, closed=True, sag=0.1)
     area = gouged(part, [lines((-5, -1.5), (15, -1.5))], 2.0, 0.1)
     assert area.bounds == pytest.approx((0.0, 0.0, 10.0, 0.4))

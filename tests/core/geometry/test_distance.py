@@ -33,7 +33,7 @@ def piece_array(piece: Piece) -> PieceArrays:
 
 
 def pairs(first: Path, second: Path) -> tuple[PieceArrays, PieceArrays]:
-    """Every piece of the one beside every piece of the other."""
+    """Every piece of the one paired with every piece of the other."""
     i, j = np.divmod(np.arange(len(first) * len(second)), len(second))
     return piece_arrays(first).take(i), piece_arrays(second).take(j)
 

@@ -71,8 +71,7 @@ class Case:
 
     @cached_property
     def has_sides(self) -> bool:
-        """The contour is closed and does not cross itself, as shapely sees its chords: of any other nobody knows the
-        inside."""
+        """The contour is closed and its chords do not cross, by shapely: any other contour has no inside."""
         return self.closed and bool(LinearRing(oracle.chords(self.surface).coords[:-1]).is_simple)
 
     def other(self, side: Side, radius: float) -> Chain:
@@ -136,8 +135,8 @@ def _simple(surface: Path) -> bool:
 
 @dataclass(frozen=True)
 class Truth:
-    """What dense points say: depth of the deepest gouge, the thickness left and on how much surface more than MATTERS
-    is left, how far behind a closed surface the path gets."""
+    """What dense points measure: the depth of the deepest gouge, the thickness left, the length of surface with more
+    than MATTERS left, and how far behind a closed surface the path gets."""
 
     depth: float
     stock: float
@@ -167,7 +166,7 @@ class Truth:
 
 
 def gouged(radius: float, least: float, behind: float) -> float:
-    """Depth of the deepest gouge of a path that comes so near to the surface, and gets so far behind it."""
+    """Depth of the deepest gouge of a path that is `least` from the surface and gets `behind` millimeters behind it."""
     return min(radius + max(behind, -least), 2.0 * radius) if least < radius - GOUGE else 0.0
 
 

@@ -129,7 +129,7 @@ def cut_across(random: Random, case: Case) -> Chain:
 
 
 def dip(random: Random, case: Case) -> Chain:
-    """A move by way of a place beside its middle, up to three radii away."""
+    """A move that detours through a place next to its middle, up to three radii away."""
     index, off = random.randrange(len(case.path.bulges)), random.uniform(-3.0, 3.0) * case.radius
     (x0, y0), (x1, y1) = case.path.points[index : index + 2]
     size = max(hypot(x1 - x0, y1 - y0), 1e-9)
@@ -183,32 +183,32 @@ class Row:
         verdict = judged(case.surface, case.side, case.radius, path)
         self.mutants += 1
         self.gouging += truth.gouges
-        self.gouge_caught += truth.gouges and _gouge_told(truth, verdict, case)
+        self.gouge_caught += truth.gouges and _gouge_reported(truth, verdict, case)
         self.leaving += truth.stock > MATTERS
-        self.stock_caught += truth.stock > MATTERS and _stock_told(truth, verdict, len(case.surface))
+        self.stock_caught += truth.stock > MATTERS and _stock_reported(truth, verdict, len(case.surface))
         self.falsely_accused += _falsely(truth, verdict, case, path)
 
 
-def _gouge_told(truth: Truth, verdict: Verdict, case: Case) -> bool:
-    """The wrong side, and a gouge as deep as it is; where the sides are unknown, or none is asked for beside an
-    open contour, no less than the radius."""
+def _gouge_reported(truth: Truth, verdict: Verdict, case: Case) -> bool:
+    """The wrong side is reported, and a gouge of the right depth; where the contour has no sides, of at least the
+    radius."""
     if case.has_sides:
-        told = abs(verdict.depth - truth.depth) < 1e-5 and (bool(verdict.wrong_side) or not truth.wrong_side)
-        return told and not verdict.clean
+        right = abs(verdict.depth - truth.depth) < 1e-5 and (bool(verdict.wrong_side) or not truth.wrong_side)
+        return right and not verdict.clean
     return not verdict.clean and verdict.depth > min(truth.depth, case.radius) - 1e-5
 
 
-def _stock_told(truth: Truth, verdict: Verdict, pieces: int) -> bool:
-    """The largest thickness is right, and no less surface is told than dense points find."""
-    told = max((stretch.thickness for stretch in verdict.uncut), default=0.0)
+def _stock_reported(truth: Truth, verdict: Verdict, pieces: int) -> bool:
+    """The largest thickness is right, and no less surface is reported than dense points find."""
+    thickest = max((stretch.thickness for stretch in verdict.uncut), default=0.0)
     steps = STEP * (pieces + 2 * len(verdict.uncut))
-    return told > truth.stock - 1e-5 and verdict.uncut_length > truth.left - steps
+    return thickest > truth.stock - 1e-5 and verdict.uncut_length > truth.left - steps
 
 
 def _falsely(truth: Truth, verdict: Verdict, case: Case, path: Path) -> bool:
-    """Something is told that dense points do not find: a gouge, a wrong side, stock."""
+    """Something is reported that dense points do not find: a gouge, a wrong side, stock."""
     for gouge in verdict.gouges:
-        # where all of the cutter is behind the surface, the gouge ends short of the radius by what is no gouge
+        # where the whole cutter is behind the surface, the gouge ends a tolerance short of the radius
         give = 2.0 * GOUGE if gouge.depth > case.radius else 1e-8
         if abs(oracle.apart(np.array([gouge.at]), case.surface)[0] - abs(case.radius - gouge.depth)) > give:
             return True

@@ -93,7 +93,7 @@ FAMILIES: tuple[Callable[[Random], Path], ...] = (wander, convex, walls, spiral,
 
 
 def centers(random: Random, surface: Path) -> Iterator[tuple[Side, float, Path]]:
-    """Paths beside a surface: those of the control and the best path, with other radii, slightly or badly spoiled."""
+    """Paths along a surface: the control's and the best path, with other radii, slightly or badly spoiled."""
     side, radius = random.choice(list(Side)), random.choice((0.1, 0.5, 0.5, 1.3))
     closed = bool(np.hypot(*(surface.points[0] - surface.points[-1])) < 1e-6)
     control_path = compensate(surface, side, radius, random.choice((1, 3, 20)), closed=closed).path

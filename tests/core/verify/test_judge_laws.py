@@ -114,7 +114,7 @@ def test_motion_changes_nothing(surface: Path, center: Path, radius: float, angl
 
 
 def _loops(random: Random, surface: Path) -> list[Path]:
-    """Paths beside and across a surface: correct ones of several radii, one moved, and lines across the whole."""
+    """Paths along and across a surface: correct ones of several radii, one moved, and lines across the whole."""
     found = [
         compensate(surface, side, random.choice((0.1, 0.3, 0.9)), 20, closed=True).path
         for side in random.choices(list(Side), k=3)

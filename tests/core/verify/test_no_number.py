@@ -87,7 +87,7 @@ ROUND = Path.from_pieces([Arc((0.0, 0.0), (20.0, 0.0), (10.0, 0.0), Turn.CCW)])
 
 @pytest.mark.parametrize(("contour", "column"), [(WALL, "vector"), (WALL, "start"), (ROUND, "start")])
 def test_a_wall_at_an_invalid_distance_is_not_judged(contour: Path, column: str) -> None:
-    """A comparison would ignore it, and the path beside it would be clean."""
+    """A comparison would ignore it, and the path along it would be clean."""
     surface = Surface.prepare(contour, Side.LEFT)
     far = lines((-50, 30), (-60, 30))
     for path in (DEEP, far):

@@ -1,4 +1,4 @@
-"""Every road of the judge against shapely: chords and buffers, whose author never saw a wall with a move beside it."""
+"""Every part of the judge against shapely's chords and buffers, which know nothing of walls and moves."""
 
 from __future__ import annotations
 

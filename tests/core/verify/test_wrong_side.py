@@ -25,7 +25,7 @@ PLATE = square(40.0)
 
 @pytest.mark.parametrize(("end", "inside"), [((50, 1), 0.29357798), ((44, 0.6), 0.30353430), ((60, 4), 1.68888889)])
 def test_a_move_through_a_corner_of_a_plate_gouges_beyond_the_radius(end: tuple[float, float], inside: float) -> None:
-    """The ends of the move are beside the plate; in between, the center is inside by less than the radius."""
+    """The ends of the move are outside the plate; in between, the center is inside by less than the radius."""
     for verdict in as_it_is_and_finer(PLATE, Side.RIGHT, 3.0, lines((-1, -2.5), end)):
         assert verdict.wrong_side == (0,)
         assert verdict.depth == pytest.approx(3.0 + inside, abs=1e-6)

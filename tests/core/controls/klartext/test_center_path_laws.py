@@ -21,7 +21,7 @@ FAR = 900.0
 
 
 def pieces_of(legs: list[tuple[float, float, int, float]]) -> list[Piece]:
-    """Lines and arcs one behind the other, each turned off the one before it."""
+    """Lines and arcs one after the other, each at an angle to the one before it."""
     pieces: list[Piece] = []
     at, heading = (0.0, 0.0), 0.0
     for bend, size, turn, sweep in legs:

@@ -1,4 +1,4 @@
-"""Cycles of which only the end is known, and what stands between them and the contour."""
+"""Cycles of which only the end is known, and the blocks between them and the contour."""
 
 from __future__ import annotations
 
@@ -13,7 +13,7 @@ CONTOUR = ("L X-20 Y+0 R0 FMAX", "L X+0 Y+0 RL F9", "L X+30", "L X+60 R0")
 
 
 def compensated(made: ControlRun) -> list[tuple[float, ...]]:
-    """The moves of the contour behind a cycle."""
+    """The moves of the contour after a cycle."""
     assert made.stopped_at is None, made.findings
     return flat(made)[-3:]
 

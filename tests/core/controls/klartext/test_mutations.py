@@ -52,7 +52,7 @@ def sound(made: ControlRun) -> bool:
 
 
 def run_broken(file: Path, count: int) -> tuple[float, int]:
-    """Seconds the slowest of so many mutations took, and how many have a compensated contour."""
+    """Seconds that the slowest of `count` mutations took, and how many have a compensated contour."""
     text, random, slowest, cutting = file.read_bytes(), Random(file.stem), 0.0, 0
     for number in range(count):
         program = mutated(text, random)
