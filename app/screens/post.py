@@ -19,7 +19,7 @@ from app.screens.entry_screen import EntryScreen
 from app.session.formats import counted
 from app.session.guide import GUIDE_COMPLETED, POST_NAME
 from app.session.messages import Sentence, Tone
-from app.session.posting import CENTER_PATH, OVERRIDE_PHRASES, NcText, choices, nc_text, objections
+from app.session.posting import CENTER_PATH, OVERRIDE_PHRASES, PostedText, choices, nc_text, objections
 from app.session.session import Session
 from app.widgets.option_rows import OptionRows, control_rows
 from app.widgets.plain import PlainLabel, PlainText
@@ -55,7 +55,7 @@ class PostScreen(EntryScreen):
     def __init__(self, text: str = "") -> None:
         super().__init__(text)
         self.choice = ""
-        self.made: NcText | None = None
+        self.made: PostedText | None = None
         self.stopped = False
         self._enter_waits = False
         """Enter was pressed while the text was being made: it acts once the text is there."""

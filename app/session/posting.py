@@ -26,7 +26,7 @@ OVERRIDE_PHRASES: Final = ("POST ANYWAY", "POST WITH GOUGE")
 
 
 @dataclass(frozen=True, slots=True)
-class NcText:
+class PostedText:
     """An NC text, or the reasons `against` posting; `overridable` if the operator's phrase overrides them."""
 
     text: str = ""
@@ -47,7 +47,7 @@ def choices() -> tuple[ControlChoice, ...]:
 
 def nc_text(
     program: Program, name: str, choice: str, override: str | None = None, progress: Progress = silent
-) -> NcText:
+) -> PostedText:
     """Return the NC text of a program; everything is derived again, so nothing stale is posted.
 
     `name` is the file's name; `override` is the phrase the operator typed to post a path that gouges.
@@ -67,10 +67,10 @@ def nc_text(
     notes = () if asked is None else (sentence(asked, unit),)
     if isinstance(result, Posted):
         remarks = (*_warnings(derived), *result.notes)
-        return NcText(result.text, notes=(*notes, *(located_sentence(note, unit) for note in remarks)))
+        return PostedText(result.text, notes=(*notes, *(located_sentence(note, unit) for note in remarks)))
     against, remedies = refusals(derived, result)
     overridable = choice == CENTER_PATH and all(finding.code in OVERRIDABLE_CODES for finding in result.findings)
-    return NcText(against=against, notes=(*remedies, *notes), overridable=overridable)
+    return PostedText(against=against, notes=(*remedies, *notes), overridable=overridable)
 
 
 def _warnings(derived: Derived) -> Iterator[Finding]:
