@@ -20,7 +20,7 @@ from textual.worker import get_current_worker
 
 from app.documents.document import NcDocument
 from app.documents.nc_text import NcText
-from app.nc_proof.dialogs import CompareControls
+from app.nc_proof.compare_controls import CompareControls
 from app.nc_proof.listing import Listing
 from app.nc_proof.runs import (
     RUN_SHARE,

@@ -18,7 +18,7 @@ from app.documents.files import load
 from app.documents.nc_text import NcText
 from app.documents.programs import example
 from app.file_actions import session_of
-from app.nc_proof.dialogs import CompareControls
+from app.nc_proof.compare_controls import CompareControls
 from app.nc_proof.listing import Listing
 from app.nc_proof.runs import RanDotted, Result, RunRequest, first_tool, header_tools, likely_control, read_tools, run
 from app.nc_proof.screen import ProofScreen, read_tool
