@@ -19,7 +19,7 @@ if TYPE_CHECKING:
     from core.geometry.piece import Point
 
 
-class Kind(IntEnum):
+class EntryKind(IntEnum):
     """The kind of a finding, in the order of the list."""
 
     GOUGE = 0
@@ -43,7 +43,7 @@ REMEDY_CODES: Final = frozenset(
 """Advice that has been tried and gives a clean path."""
 START_FIELD_OF_ADVICE: Final = {"CAL_NOT_CLEAN": "lookahead", "START_MID_SIDE": "x_start", "START_BLENDLESS": "x_start"}
 """The field of START in which advice is carried out, by the code of the advice, whichever segment it names."""
-_KINDS: Final = {Severity.ERROR: Kind.ERROR, Severity.WARNING: Kind.WARNING, Severity.INFO: Kind.NOTE}
+_KINDS: Final = {Severity.ERROR: EntryKind.ERROR, Severity.WARNING: EntryKind.WARNING, Severity.INFO: EntryKind.NOTE}
 
 
 @dataclass(frozen=True, slots=True)
@@ -53,7 +53,7 @@ class Entry:
     The loupe goes to `at` (mm), the cursor to `segment` and `field`; each is None if there is none.
     """
 
-    kind: Kind
+    kind: EntryKind
     title: str
     where: str
     text: str
@@ -98,14 +98,14 @@ def remedy(table: Table | None, field: str, unit: Unit) -> str:
     return ""
 
 
-def _kind(finding: Finding) -> Kind:
+def _kind(finding: Finding) -> EntryKind:
     if finding.code in TO_TYPE:
-        return Kind.TO_TYPE
+        return EntryKind.TO_TYPE
     if finding.code in GOUGE_CODES:
-        return Kind.GOUGE
+        return EntryKind.GOUGE
     if finding.code in REMEDY_CODES:
-        return Kind.REMEDY
-    return Kind.UNCUT if finding.code == "UNCUT" else _KINDS[finding.severity]
+        return EntryKind.REMEDY
+    return EntryKind.UNCUT if finding.code == "UNCUT" else _KINDS[finding.severity]
 
 
 def _title(finding: Finding, unit: Unit) -> str:

@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Final, cast
 from textual.app import ComposeResult
 from textual.containers import Horizontal
 
-from app.session.block_findings import Entry, Kind
+from app.session.block_findings import Entry, EntryKind
 from app.session.session import Session
 from app.widgets.drawing import Drawing
 from app.widgets.findings_list import heading
@@ -62,8 +62,8 @@ class BlockDrawings(Horizontal):
             )
         loupe = self.query_one("#loupe", Drawing)
         loupe.heading = title
-        loupe.set_class(kind is Kind.GOUGE, "-gouge")
-        loupe.set_class(kind is Kind.UNCUT, "-uncut")
+        loupe.set_class(kind is EntryKind.GOUGE, "-gouge")
+        loupe.set_class(kind is EntryKind.UNCUT, "-uncut")
 
 
 def _moved(before: Subject, after: Subject) -> bool:
@@ -76,7 +76,7 @@ def _numbers(entries: Sequence[Entry]) -> tuple[Mark, ...]:
     from core.draw.scene import Mark, Style, Symbol
 
     marks = [
-        Mark(entry.at, Style.GOUGE if entry.kind is Kind.GOUGE else Style.UNCUT, Symbol.NUMBER, text=str(number))
+        Mark(entry.at, Style.GOUGE if entry.kind is EntryKind.GOUGE else Style.UNCUT, Symbol.NUMBER, text=str(number))
         for number, entry in enumerate(entries[:MAX_NUMBERED], 1)
         if entry.at is not None
     ]
@@ -85,7 +85,7 @@ def _numbers(entries: Sequence[Entry]) -> tuple[Mark, ...]:
 
 def _loupe(
     session: Session, entries: Sequence[Entry], in_hand: int | None, characters: str
-) -> tuple[Point | None, str, Kind | None]:
+) -> tuple[Point | None, str, EntryKind | None]:
     """Return the loupe's center (None for the whole part), its title, and the kind of the finding."""
     if in_hand is not None and in_hand < len(entries):
         entry = entries[in_hand]

@@ -11,18 +11,18 @@ from textual.content import Content
 from textual.reactive import reactive
 from textual.widgets.option_list import Option
 
-from app.session.block_findings import Entry, Kind
+from app.session.block_findings import Entry, EntryKind
 from app.widgets.option_rows import OptionRows
 from app.widgets.verdict import MARKS_OF_CHARACTERS, Marks
 
 ROLES = {
-    Kind.GOUGE: "$c-gouge",
-    Kind.ERROR: "$c-err",
-    Kind.TO_TYPE: "$c-warn",
-    Kind.REMEDY: "$c-good",
-    Kind.UNCUT: "$c-uncut",
-    Kind.WARNING: "$c-warn",
-    Kind.NOTE: "$c-label",
+    EntryKind.GOUGE: "$c-gouge",
+    EntryKind.ERROR: "$c-err",
+    EntryKind.TO_TYPE: "$c-warn",
+    EntryKind.REMEDY: "$c-good",
+    EntryKind.UNCUT: "$c-uncut",
+    EntryKind.WARNING: "$c-warn",
+    EntryKind.NOTE: "$c-label",
 }
 """The color of each kind of finding."""
 HEADING_WIDTH = 37
@@ -31,11 +31,11 @@ MIN_WIDTH = 20
 """The narrowest width in cells to which sentences are wrapped."""
 
 
-def mark(kind: Kind, marks: Marks) -> str:
+def mark(kind: EntryKind, marks: Marks) -> str:
     """Return the sign of a kind of finding."""
-    if kind in (Kind.GOUGE, Kind.ERROR):
+    if kind in (EntryKind.GOUGE, EntryKind.ERROR):
         return marks.gouge
-    return "?" if kind is Kind.TO_TYPE else "i" if kind in (Kind.REMEDY, Kind.NOTE) else marks.warning
+    return "?" if kind is EntryKind.TO_TYPE else "i" if kind in (EntryKind.REMEDY, EntryKind.NOTE) else marks.warning
 
 
 def heading(entries: Sequence[Entry], at: int, marks: Marks) -> str:

@@ -6,7 +6,7 @@ import pytest
 
 from app.documents.files import load
 from app.documents.programs import empty_program, example
-from app.session.block_findings import Kind, block_findings
+from app.session.block_findings import EntryKind, block_findings
 from core.finding import Finding, Severity
 from core.pipeline.derive import derive
 from core.pipeline.derived import DerivedBlock
@@ -26,7 +26,7 @@ def test_gouges_come_first_and_uncut_stock_is_sorted_by_area(pocket):
     assert (entries[0].where, entries[0].segment, entries[0].at) == ("segment 3", 3, (1.0, 2.0))
     kinds = [entry.kind for entry in entries]
     assert kinds == sorted(kinds)
-    areas = [entry.area for entry in entries if entry.kind is Kind.UNCUT]
+    areas = [entry.area for entry in entries if entry.kind is EntryKind.UNCUT]
     assert len(areas) > 1
     assert areas == sorted(areas, reverse=True)
 
@@ -39,5 +39,5 @@ def test_the_first_finding_of_the_pocket_is_its_largest_uncut_area(pocket):
 
 def test_values_still_to_be_typed_have_their_own_kind():
     entries = block_findings(derive(empty_program()).block(1), None, Unit.IN)
-    assert {entry.kind for entry in entries} <= {Kind.TO_TYPE, Kind.ERROR}
-    assert Kind.TO_TYPE in {entry.kind for entry in entries}
+    assert {entry.kind for entry in entries} <= {EntryKind.TO_TYPE, EntryKind.ERROR}
+    assert EntryKind.TO_TYPE in {entry.kind for entry in entries}
