@@ -42,7 +42,7 @@ from app.documents.programs import empty_program, example, examples
 from app.documents.questions import GO_BACK, QuestionText, held_sentence, name_of, person, whole_name
 from app.documents.time_limits import FILE_SECONDS, within
 from app.documents.unsaved_work import (
-    Unreadable,
+    UnreadableWork,
     elsewhere,
     journal_place,
     new_journal,
@@ -88,7 +88,7 @@ class Offer:
 
     ask: QuestionText
     path: Path | None = None
-    left: Journal | Unreadable | None = None
+    left: Journal | UnreadableWork | None = None
     answered: frozenset[Path] = frozenset()
 
 
@@ -311,7 +311,9 @@ class DocumentService:
                 return Opened(document, notice, Offer(ask, path, left, answered))
         return Opened(document, notice or (Notice(" ".join(for_others), warning=True) if for_others else None))
 
-    def _unsaved_work(self, document: Document, kept_copy: Path | None) -> Iterator[tuple[Path, Journal | Unreadable]]:
+    def _unsaved_work(
+        self, document: Document, kept_copy: Path | None
+    ) -> Iterator[tuple[Path, Journal | UnreadableWork]]:
         """Yield the unsaved work to ask about; a chosen kept copy comes first."""
         if kept_copy is not None and (copy := read(kept_copy, document.kind) or unreadable(kept_copy)) is not None:
             yield kept_copy, copy
@@ -320,11 +322,11 @@ class DocumentService:
                 yield path, left
 
     def _question(
-        self, document: Document, path: Path, left: Journal | Unreadable, *, chosen: bool
+        self, document: Document, path: Path, left: Journal | UnreadableWork, *, chosen: bool
     ) -> QuestionText | str | None:
         """Return the question about unsaved work, a sentence for users who are not asked, or None if nothing is new."""
         today = self.clock()
-        if isinstance(left, Unreadable):
+        if isinstance(left, UnreadableWork):
             if reason_set_aside(path) and not left.ours:
                 return _kept_for(left.user, left.time, path, today)
             return questions.unreadable_work(document, path, left, today)
@@ -417,7 +419,7 @@ class DocumentService:
             return path
 
     def _put_away(
-        self, document: AnyDocument, path: Path, left: Journal | Unreadable, answered: frozenset[Path], whose: str
+        self, document: AnyDocument, path: Path, left: Journal | UnreadableWork, answered: frozenset[Path], whose: str
     ) -> Opened[AnyDocument]:
         """Return the document without the work, which is kept `whose`: as a backup, or for its author."""
         aside = path

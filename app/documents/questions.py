@@ -16,7 +16,7 @@ from app.documents.document import ContourDocument, Document
 from app.documents.journal import Journal, Kind
 from app.documents.lock import Owner
 from app.documents.paths import folder, is_outside_folder, printable_path
-from app.documents.unsaved_work import UNNAMED_PROGRAM, Unreadable
+from app.documents.unsaved_work import UNNAMED_PROGRAM, UnreadableWork
 from core.units import printable
 
 GO_BACK: Final = "GO BACK"
@@ -236,7 +236,7 @@ def _written_since(document: Document, journal: Journal) -> bool:
     return document.file.path is not None and now is not None and (then is None or not now.same_content(then))
 
 
-def unreadable_work(document: Document, path: Path, left: Unreadable, today: str) -> QuestionText:
+def unreadable_work(document: Document, path: Path, left: UnreadableWork, today: str) -> QuestionText:
     """Report unsaved work that cannot be read, so that nobody overlooks it."""
     who, when = printable(left.user), times.in_words(left.time, today)
     name = UNNAMED_PROGRAM if document.file.path is None else printable(document.file.path.name)

@@ -78,7 +78,7 @@ def new_journal(path: Path, file: Path | None) -> JournalFile:
 
 
 @dataclass(frozen=True, slots=True)
-class Unreadable:
+class UnreadableWork:
     """Unsaved work that cannot be read: who wrote it, and when, in ISO format.
 
     `hidden`: we may not read it.  `ours`: the file belongs to this login.  `what` says what the path is if it is not a
@@ -93,7 +93,7 @@ class Unreadable:
     owner: Owner | None = None
 
 
-def unsaved_work_on(file: Path | None, kind: Kind, state: Path) -> Iterator[tuple[Path, Journal | Unreadable]]:
+def unsaved_work_on(file: Path | None, kind: Kind, state: Path) -> Iterator[tuple[Path, Journal | UnreadableWork]]:
     """Yield the unsaved work on a file, or work without a name, of every user; those set aside come last, newest first.
 
     Skip what was discarded, and what was set aside from a running process unless that wrote more and has died.
@@ -102,7 +102,7 @@ def unsaved_work_on(file: Path | None, kind: Kind, state: Path) -> Iterator[tupl
         left = read(path, kind) or unreadable(path)
         if left is None:
             continue
-        owner = left.owner if isinstance(left, Unreadable) else left.head.owner
+        owner = left.owner if isinstance(left, UnreadableWork) else left.head.owner
         living = owner is not None and alive(owner)
         if not (living and (file is None or reason_set_aside(path))):
             yield path, left
@@ -111,7 +111,7 @@ def unsaved_work_on(file: Path | None, kind: Kind, state: Path) -> Iterator[tupl
 def work_of_dead_processes(file: Path, kind: Kind, state: Path, user: str) -> Iterator[tuple[Path, Journal]]:
     """Yield the journals on a file that this user is asked about, left by processes that died."""
     for path, left in unsaved_work_on(file, kind, state):
-        if isinstance(left, Unreadable) or alive(left.head.owner):
+        if isinstance(left, UnreadableWork) or alive(left.head.owner):
             continue
         if not reason_set_aside(path) or of_user(left.head.owner, path, state, user):
             yield path, left
@@ -196,7 +196,7 @@ def read(path: Path, kind: Kind | None = None) -> Journal | None:
     return journal if journal is not None and kind in (None, journal.kind) else None
 
 
-def unreadable(path: Path) -> Unreadable | None:
+def unreadable(path: Path) -> UnreadableWork | None:
     """Describe a journal that cannot be read; return None if there is none or it is empty."""
     hidden, what, owner = False, "", None
     try:
@@ -218,7 +218,7 @@ def unreadable(path: Path) -> Unreadable | None:
     except OSError:
         return None
     user, time = login(status.st_uid), times.of_file(status.st_mtime_ns)
-    return Unreadable(user, time, hidden, status.st_uid == os.getuid(), what, owner)
+    return UnreadableWork(user, time, hidden, status.st_uid == os.getuid(), what, owner)
 
 
 def login(number: int) -> str:
