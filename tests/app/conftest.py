@@ -97,10 +97,9 @@ def _own_state(monkeypatch: pytest.MonkeyPatch) -> Iterator[None]:
 @pytest_asyncio.fixture(loop_scope="module", scope="module")
 async def opened() -> AsyncIterator[Operator]:
     """Open one app for all tests of a module that take `user`."""
-    from tests.app.widget_pilot import PAINTED_AT_REST, operator
+    from tests.app.widget_pilot import operator
 
     async with operator() as user:
-        PAINTED_AT_REST.add(user.app)
         yield user
 
 

@@ -66,9 +66,7 @@ def marked_cells(field: LineInput) -> tuple[int, int]:
 
 async def test_without_colors_a_field_is_reversed_and_its_cursor_underlined() -> None:
     app = CutcompApp(session_on("pocket"), surroundings=SURROUNDINGS, few_colors=True)
-    async with app.run_test(size=(80, 24)) as pilot:
-        user = Operator(app, pilot)
-        await user.settle()
+    async with Operator.of(app) as user:
         seen = set()
         for _ in range(9):
             field = app.focused
@@ -84,8 +82,8 @@ async def test_without_colors_a_field_is_reversed_and_its_cursor_underlined() ->
 
 async def test_without_colors_the_screen_behind_a_dialog_stays_visible() -> None:
     app = CutcompApp(session_on("pocket"), surroundings=SURROUNDINGS, few_colors=True)
-    async with app.run_test(size=(80, 24)) as pilot:
-        await Operator(app, pilot).press("tab", "7", "enter", "ctrl+q")
+    async with Operator.of(app) as user:
+        await user.press("tab", "7", "enter", "ctrl+q")
         assert app.screen.query("#question")
         assert "CONTOUR" in app.export_screenshot()
         answers = app.screen.query_one("#answers", OptionRows)

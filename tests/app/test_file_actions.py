@@ -54,9 +54,7 @@ async def at_work(folder: Path, name: str = "part.toml", **options) -> AsyncIter
         home=not name,
         settings_file=SettingsFile(folder / "settings.toml", Settings()),
     )
-    async with app.run_test(size=(80, 24)) as pilot:
-        user = Operator(app, pilot)
-        await user.settle()
+    async with Operator.of(app) as user:
         yield user
         await user.settle()
     service.stop()

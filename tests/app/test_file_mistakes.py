@@ -171,8 +171,7 @@ async def test_saving_an_unnamed_program_at_quit_asks_for_a_name_and_then_leaves
     service = DocumentService(state=folder / "own")
     opened = service.new()
     app = CutcompApp(session_of(opened.document), surroundings=SURROUNDINGS, service=service, opened=opened)
-    async with app.run_test(size=(80, 24)) as pilot:
-        user = Operator(app, pilot)
+    async with Operator.of(app) as user:
         await user.press("'7", "ctrl+q", "s")
         assert isinstance(app.screen, Phrase)
         await user.press("escape")
@@ -281,8 +280,7 @@ async def test_a_deleted_current_folder_is_reported_on_saving(folder, monkeypatc
     service = DocumentService(state=folder / "own")
     opened = service.new()
     app = CutcompApp(Session.of(load(example("pocket"))), service=service, opened=opened)
-    async with app.run_test(size=(80, 24)) as pilot:
-        user = Operator(app, pilot)
+    async with Operator.of(app) as user:
         gone.rmdir()
         await entered(user, "app.save_as", "lid")
         assert "there is no such file or folder" in user.prompt

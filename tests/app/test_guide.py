@@ -24,9 +24,7 @@ async def guided(folder: Path) -> AsyncIterator[Operator]:
     service = DocumentService(state=folder / "own")
     opened = service.new()
     app = CutcompApp(session_of(opened.document), surroundings=SURROUNDINGS, service=service, opened=opened)
-    async with app.run_test(size=(80, 24)) as pilot:
-        user = Operator(app, pilot)
-        await user.settle()
+    async with Operator.of(app) as user:
         app.action_guide()
         await user.settle()
         yield user

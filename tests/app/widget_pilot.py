@@ -7,7 +7,7 @@ from asyncio import sleep
 from collections.abc import AsyncIterator
 from contextlib import asynccontextmanager, suppress
 from time import monotonic
-from typing import Any, Final
+from typing import Any, Final, Self
 from weakref import WeakSet
 
 from textual.app import App
@@ -31,6 +31,8 @@ from core.program.model import Program
 
 QUIET_ROUNDS = 4
 """A wait ends after this many idle rounds; work deferred until after a repaint arrives in the next round."""
+PAINTING_ROUND = 2
+"""The idle round that paints: until then, what it paints may change again."""
 ROUND = 0.005
 """Seconds between two looks at a worker that is not waited for to its end."""
 PAINTED_AT_REST: Final[WeakSet[App[Any]]] = WeakSet()
@@ -75,6 +77,20 @@ class Operator:
 
     def __init__(self, app: CutcompApp, pilot: Pilot[int]) -> None:
         self.app, self.pilot = app, pilot
+
+    @classmethod
+    @asynccontextmanager
+    async def of(cls, app: CutcompApp, size: tuple[int, int] = (80, 24)) -> AsyncIterator[Self]:
+        """Start the program, and end it before it closes, as QUIT does: later results from threads are dropped."""
+        PAINTED_AT_REST.add(app)
+        async with app.run_test(size=size) as pilot:
+            user = cls(app, pilot)
+            await user.settle()
+            try:
+                yield user
+            finally:
+                if app.is_running:
+                    app.exit()
 
     async def press(self, *keys: str) -> None:
         """Press keys and wait for what they start; "'1.25" is typed letter by letter."""
@@ -121,7 +137,7 @@ class Operator:
             if not busy:
                 # as the pilot does: without waiting for the next frame
                 self.app.screen._on_timer_update()
-                if self.app.screen in UNPAINTED:
+                if rounds == PAINTING_ROUND and self.app.screen in UNPAINTED:
                     UNPAINTED.discard(self.app.screen)
                     _PAINT(self.app.screen)
             await sleep(ROUND if others and not busy else 0)
@@ -182,13 +198,5 @@ class Operator:
 @asynccontextmanager
 async def operator(start: str | Program = "pocket", size: tuple[int, int] = (80, 24)) -> AsyncIterator[Operator]:
     """An operator with an example or a program on the form."""
-    app = CutcompApp(session_on(start), surroundings=SURROUNDINGS)
-    async with app.run_test(size=size) as pilot:
-        user = Operator(app, pilot)
-        await user.settle()
-        try:
-            yield user
-        finally:
-            if app.is_running:
-                # as QUIT does: later results from threads are dropped
-                app.exit()
+    async with Operator.of(CutcompApp(session_on(start), surroundings=SURROUNDINGS), size) as user:
+        yield user

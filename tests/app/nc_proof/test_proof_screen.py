@@ -84,9 +84,7 @@ async def at_proof(
     assert isinstance(opening, Opened)
     session = session_of(service.new().document)
     app = CutcompApp(session, surroundings=SURROUNDINGS, service=service, opened=opening, check_request=check_request)
-    async with app.run_test(size=size) as pilot:
-        user = Proof(app, pilot)
-        await user.settle()
+    async with Proof.of(app, size) as user:
         yield user
         await user.settle()
     service.stop()

@@ -75,9 +75,7 @@ def on(start: str | Program, stages: Mapping[str, str]) -> Part:
 async def differing(app: CutcompApp, size: str, parts: Sequence[Part], snapshot: SnapshotAssertion) -> list[str]:
     """Go from picture to picture; the names of those that differ."""
     wrong = []
-    async with app.run_test(size=SIZES[size]) as pilot:
-        user = Viewer(app, pilot)
-        await user.settle()
+    async with Viewer.of(app, SIZES[size]) as user:
         for opened, stages in parts:
             if opened is not None:
                 opened(app)

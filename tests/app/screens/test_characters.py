@@ -12,9 +12,7 @@ from tests.app.widget_pilot import SURROUNDINGS, Operator, operator, session_on
 
 async def test_an_ascii_terminal_gets_ascii_on_every_screen():
     app = CutcompApp(session_on("pocket"), surroundings=SURROUNDINGS, character_sets=("ascii",))
-    async with app.run_test(size=(80, 24)) as pilot:
-        user = Operator(app, pilot)
-        await user.settle()
+    async with Operator.of(app) as user:
         for action in ("draw", "lookahead", "program", "home"):
             await app.run_action(f"app.{action}")
             await user.settle()

@@ -136,9 +136,7 @@ async def importer(source: Path | bytes, tmp_path: Path, *, unit: Unit = Unit.MM
 async def running(unit: Unit = Unit.MM) -> AsyncIterator[Importer]:
     """An operator at an empty program."""
     app = CutcompApp(Session.of(empty_program(unit)), surroundings=SURROUNDINGS)
-    async with app.run_test(size=(80, 24)) as pilot:
-        user = Importer(app, pilot)
-        await user.settle()
+    async with Importer.of(app) as user:
         yield user
 
 
@@ -448,9 +446,7 @@ async def test_home_lists_drawings_and_opens_one(tmp_path, monkeypatch):
     (tmp_path / "plate.dxf").write_bytes(dxf(*square(0, 0, 10)))
     service = DocumentService(state=tmp_path / "own")
     app = CutcompApp(session_of(service.new(Unit.MM).document), surroundings=SURROUNDINGS, service=service, home=True)
-    async with app.run_test(size=(80, 24)) as pilot:
-        user = Importer(app, pilot)
-        await user.settle()
+    async with Importer.of(app) as user:
         table = app.screen.query_one("#programs", DataTable)
         assert [str(cell) for cell in table.get_row_at(0)] == ["plate.dxf", "", "", "", "drawing"]
         await user.press("enter")
@@ -469,9 +465,7 @@ async def test_open_of_a_drawing_by_its_path_lists_it(tmp_path, monkeypatch):
     settings = SettingsFile(tmp_path / "settings.toml", Settings())
     program = service.new(Unit.MM).document
     app = CutcompApp(session_of(program), surroundings=SURROUNDINGS, service=service, settings_file=settings)
-    async with app.run_test(size=(80, 24)) as pilot:
-        user = Importer(app, pilot)
-        await user.settle()
+    async with Importer.of(app) as user:
         await user.press("ctrl+k", *["'i", "'m", "'p", "'o", "'r", "'t"], "'d")
         await user.press("ctrl+k")
         await app.run_action("app.open_path")
