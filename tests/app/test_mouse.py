@@ -11,6 +11,8 @@ from app.widgets.drawing import Drawing
 from core.program.model import Number
 from tests.app.widget_pilot import Operator, operator
 
+pytestmark = pytest.mark.asyncio(loop_scope="module")
+
 
 async def click_at(user: Operator, drawing: Drawing, point: tuple[float, float]) -> None:
     """Click on a point (mm) of a drawing."""
@@ -35,23 +37,21 @@ async def test_softkeys_fields_and_list_rows_take_clicks():
         assert user.session.place.segment == 4
 
 
-async def test_a_click_in_the_drawing_goes_to_the_nearest_segment():
-    async with operator() as user:
-        await click_at(user, user.screen.query_one("#outline", Drawing), (4.75 * 25.4, 2.2 * 25.4))
-        assert user.session.place.segment == 3
-        await user.press("f7")
-        await click_at(user, user.screen.query_one("#full-drawing", Drawing), (3.0 * 25.4, 0.25 * 25.4))
-        assert user.session.place.segment == 1
+async def test_a_click_in_the_drawing_goes_to_the_nearest_segment(user: Operator):
+    await click_at(user, user.screen.query_one("#outline", Drawing), (4.75 * 25.4, 2.2 * 25.4))
+    assert user.session.place.segment == 3
+    await user.press("f7")
+    await click_at(user, user.screen.query_one("#full-drawing", Drawing), (3.0 * 25.4, 0.25 * 25.4))
+    assert user.session.place.segment == 1
 
 
-async def test_a_click_on_the_number_of_a_finding_selects_it():
-    async with operator() as user:
-        assert isinstance(user.screen, ContourScreen)
-        place = user.screen.entries[2].at
-        assert place is not None
-        await click_at(user, user.screen.query_one("#outline", Drawing), place)
-        assert user.screen.in_hand == 2
-        assert user.session.place.segment == 0
+async def test_a_click_on_the_number_of_a_finding_selects_it(user: Operator):
+    assert isinstance(user.screen, ContourScreen)
+    place = user.screen.entries[2].at
+    assert place is not None
+    await click_at(user, user.screen.query_one("#outline", Drawing), place)
+    assert user.screen.in_hand == 2
+    assert user.session.place.segment == 0
 
 
 async def roll(user: Operator, drawing: Drawing, event: type[MouseEvent]) -> None:
@@ -64,17 +64,16 @@ async def roll(user: Operator, drawing: Drawing, event: type[MouseEvent]) -> Non
 
 
 @pytest.mark.parametrize("name", ["outline", "loupe", "full-drawing"])
-async def test_the_wheel_zooms_in_every_drawing(name):
-    async with operator() as user:
-        if name == "full-drawing":
-            await user.press("f7")
-        drawing = user.screen.query_one(f"#{name}", Drawing)
-        await roll(user, drawing, MouseScrollUp)
-        near = drawing.subject.view.scale
-        await roll(user, drawing, MouseScrollDown)
-        await roll(user, drawing, MouseScrollDown)
-        assert drawing.subject.view.scale == pytest.approx(near * 1.25**2)
-        assert drawing.subject.view.center == drawing.drawn.view.center
+async def test_the_wheel_zooms_in_every_drawing(user: Operator, name):
+    if name == "full-drawing":
+        await user.press("f7")
+    drawing = user.screen.query_one(f"#{name}", Drawing)
+    await roll(user, drawing, MouseScrollUp)
+    near = drawing.subject.view.scale
+    await roll(user, drawing, MouseScrollDown)
+    await roll(user, drawing, MouseScrollDown)
+    assert drawing.subject.view.scale == pytest.approx(near * 1.25**2)
+    assert drawing.subject.view.center == drawing.drawn.view.center
 
 
 async def test_theme_and_characters_are_kept_in_the_settings():

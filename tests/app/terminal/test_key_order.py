@@ -20,6 +20,8 @@ from app.terminal.split_keys import TORN, UNENDED
 from core.program.model import Number
 from tests.app.widget_pilot import SURROUNDINGS, Operator, operator
 
+pytestmark = pytest.mark.asyncio(loop_scope="module")
+
 
 async def burst(user: Operator, *keys: str) -> None:
     """Send all keys at once, as a slow link or a paste does."""
@@ -31,35 +33,31 @@ async def burst(user: Operator, *keys: str) -> None:
     await user.settle()
 
 
-async def test_numbers_typed_at_once_fill_the_fields_in_order():
-    async with operator() as user:
-        await burst(user, "pagedown", "tab", "5", "enter", "1", ".", "2", "5", "enter", "pagedown")
-        segment = user.session.block.segments[0]
-        assert (segment.x_end, segment.y_end) == (Number(5.0), Number(1.25))
-        assert user.session.place.segment == 3, "Enter on Y END goes to segment 2, Page Down to the next one"
-        count = len(user.session.block.segments)
-        await burst(user, "ctrl+end", "a", "tab", "3", "enter", "4", "enter")
-        segment = user.session.block.segments[count]
-        assert (segment.x_end, segment.y_end) == (Number(3.0), Number(4.0)), "the new segment of the letter"
+async def test_numbers_typed_at_once_fill_the_fields_in_order(user: Operator):
+    await burst(user, "pagedown", "tab", "5", "enter", "1", ".", "2", "5", "enter", "pagedown")
+    segment = user.session.block.segments[0]
+    assert (segment.x_end, segment.y_end) == (Number(5.0), Number(1.25))
+    assert user.session.place.segment == 3, "Enter on Y END goes to segment 2, Page Down to the next one"
+    count = len(user.session.block.segments)
+    await burst(user, "ctrl+end", "a", "tab", "3", "enter", "4", "enter")
+    segment = user.session.block.segments[count]
+    assert (segment.x_end, segment.y_end) == (Number(3.0), Number(4.0)), "the new segment of the letter"
 
 
-async def test_a_torn_key_and_an_unended_paste_are_reported_and_keep_half_typed_text():
-    async with operator() as user:
-        await user.press("tab", "1")
-        for key, begins in ((TORN, "The link split a key"), (UNENDED, "Pasted text came without its end")):
-            user.app.post_message(events.Key(key, None))
-            await user.settle()
-            assert user.prompt.startswith(begins)
-        await user.press("2", "enter")
-        assert user.session.block.tool == Number(12.0)
+async def test_a_torn_key_and_an_unended_paste_are_reported_and_keep_half_typed_text(user: Operator):
+    await user.press("tab", "1")
+    for key, begins in ((TORN, "The link split a key"), (UNENDED, "Pasted text came without its end")):
+        user.app.post_message(events.Key(key, None))
+        await user.settle()
+        assert user.prompt.startswith(begins)
+    await user.press("2", "enter")
+    assert user.session.block.tool == Number(12.0)
 
 
 async def test_keys_after_the_one_that_opens_a_file_go_to_that_file(part: Path, state: Path):
     service = DocumentService(state=state)
     app = CutcompApp(session_of(service.new().document), surroundings=SURROUNDINGS, service=service, home=True)
-    async with app.run_test(size=(80, 24)) as pilot:
-        user = Operator(app, pilot)
-        await user.settle()
+    async with Operator.of(app) as user:
         await burst(user, "enter", "pagedown", "tab", "5", "enter")
         assert user.session.file == part
         assert user.session.place.segment == 1
@@ -106,11 +104,10 @@ async def test_a_slow_machine_keeps_the_keys_in_their_fields(monkeypatch):
         assert user.session.block.tool == Number(7.0)
 
 
-async def test_keys_for_an_ending_program_are_dropped(monkeypatch: pytest.MonkeyPatch):
-    async with operator() as user:
-        order = KeyOrder(user.app)
-        with monkeypatch.context() as patch:
-            patch.setattr(MessagePump, "post_message", lambda *_: False)
-            patch.setattr(MessagePump, "message_queue_size", 1)
-            order.take(events.Key("5", "5"))
-        assert not order.waiting
+async def test_keys_for_an_ending_program_are_dropped(user: Operator, monkeypatch: pytest.MonkeyPatch):
+    order = KeyOrder(user.app)
+    with monkeypatch.context() as patch:
+        patch.setattr(MessagePump, "post_message", lambda *_: False)
+        patch.setattr(MessagePump, "message_queue_size", 1)
+        order.take(events.Key("5", "5"))
+    assert not order.waiting
