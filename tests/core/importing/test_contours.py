@@ -5,6 +5,7 @@ from __future__ import annotations
 import itertools
 import math
 import random
+from functools import cache
 
 import pytest
 import shapely
@@ -23,7 +24,7 @@ from core.importing.contour import (
     started_at_side,
     traveled_like,
 )
-from core.importing.contours import frame_notes, with_joined
+from core.importing.contours import ContourList, frame_notes, with_joined
 from core.importing.listing import matching, rows_of
 from core.importing.segments import with_contours
 from core.program.model import CutterComp, LineSegment, Number, Program
@@ -43,6 +44,12 @@ from tests.core.importing.drawings import (
 )
 
 CONTOURS = 100
+
+
+@cache
+def drawn_contours(seed: int, decimals: int) -> ContourList:
+    """The listing of a random contour whose drawing has rounded numbers."""
+    return listed(dxf(*(entity(piece, decimals) for piece in random_contour(seed))))
 
 
 def same(first: tuple[Piece, ...], second: tuple[Piece, ...]) -> bool:
@@ -73,17 +80,16 @@ def test_shuffled_and_reversed_copies_give_the_same_chain(first_seed: int) -> No
 @pytest.mark.parametrize("decimals", [3, 4, 5, 6])
 def test_a_rounded_drawing_gives_one_closed_contour(decimals: int) -> None:
     for seed in range(15):
-        pieces = random_contour(seed)
-        exact, rounded = (listed(dxf(*(entity(piece, count) for piece in pieces))) for count in (12, decimals))
+        exact, rounded = drawn_contours(seed, 12), drawn_contours(seed, decimals)
         assert [contour.closed for contour in rounded.contours] == [True], seed
-        assert rounded.contours[0].drawn == len(pieces), seed
+        assert rounded.contours[0].drawn == len(random_contour(seed)), seed
         assert rounded.gap <= 10.0**-decimals * 4, seed
         assert rounded.contours[0].area == pytest.approx(exact.contours[0].area, abs=0.5 * 10.0 ** (3 - decimals)), seed
 
 
 def test_pieces_of_a_contour_join_exactly() -> None:
     for seed in range(30):
-        contour = listed(dxf(*(entity(piece, 3) for piece in random_contour(seed)))).contours[0]
+        contour = drawn_contours(seed, 3).contours[0]
         ends = [piece.end for piece in contour.pieces]
         assert ends == [*(piece.start for piece in contour.pieces[1:]), contour.pieces[0].start]
         arcs = [piece for piece in contour.pieces if isinstance(piece, Arc)]
@@ -187,7 +193,7 @@ def test_a_contour_that_crosses_itself_says_so() -> None:
 def test_a_contour_crosses_itself_exactly_if_its_chords_do(decimals: int) -> None:
     crossing = 0
     for seed in range(130):
-        contour = listed(dxf(*(entity(piece, decimals) for piece in random_contour(seed)))).contours[0]
+        contour = drawn_contours(seed, decimals).contours[0]
         simple = shapely.LineString(chords_of(Path.from_pieces(contour.pieces), 1e-5)).is_simple
         assert contour.problems == (() if simple else ("touches or crosses itself",)), seed
         crossing += not simple
