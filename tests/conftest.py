@@ -3,8 +3,14 @@
 from __future__ import annotations
 
 import gc
+import os
+import sys
 
 from hypothesis import settings
+
+# sources are compiled once, not by each worker and by each of the many programs that the tests start
+os.environ.pop("PYTHONDONTWRITEBYTECODE", None)
+sys.dont_write_bytecode = False
 
 settings.register_profile("cutcomp", deadline=None, derandomize=True)
 settings.load_profile("cutcomp")
