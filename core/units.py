@@ -101,6 +101,9 @@ def show(value: float, kind: Kind, unit: Unit) -> str:
     if not isfinite(value):
         return str(value)
     decimals = decimals_shown(kind, unit)
+    if kind in (Kind.FEED, Kind.PERCENT):
+        # a slow feed has digits behind the first one
+        decimals = next((more for more in (1, 2) if round(value, more) == round(value, 3)), 3)
     text = f"{value:.{decimals}f}"
     if len(text) > MAX_SHOWN:
         texts = (f"{value:.{digits}f}" for digits in range(decimals - 1, -1, -1))
@@ -109,7 +112,7 @@ def show(value: float, kind: Kind, unit: Unit) -> str:
 
 
 def decimals_shown(kind: Kind, unit: Unit) -> int:
-    """Return the number of decimals with which the screens print a value."""
+    """Return the number of decimals with which the screens print a value; a feed or a percentage may have more."""
     match kind:
         case Kind.LENGTH:
             return 4 if unit is Unit.IN else 3
