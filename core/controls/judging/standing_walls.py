@@ -4,7 +4,8 @@ A bore is opened circle by circle, a counterbore is wider than the bore below it
 cuts the wall of another one away down to its own depth if it runs the same way around and lies behind that wall, in its
 material.  Above its depth no wall is left that a move could gouge.
 
-A pass above the lowest one of the other shape makes a step, and may share walls with it.  Any other pass makes it
+A pass above the lowest one of the other shape makes a step.  It may share walls with it if the step is somewhere wider
+than the cutter's radius: a narrower one may be a wrong coordinate at one of several depths.  Any other pass makes it
 roughing, whose whole wall is cut away: it comes later, shares no wall with it, and is at most a cutter's diameter
 behind, so that nothing stays between them.
 """
@@ -15,7 +16,7 @@ from collections import defaultdict
 from collections.abc import Sequence
 from dataclasses import dataclass, field, replace
 from math import inf
-from typing import Final
+from typing import Final, Literal
 
 import shapely
 from shapely import STRtree
@@ -122,7 +123,7 @@ class _Shape:
     rows: list[int]
     region: Polygon
     grown: Polygon
-    reached: dict[float, Polygon] = field(default_factory=dict)
+    reached: dict[tuple[float, str], Polygon] = field(default_factory=dict)
 
     @staticmethod
     def of(rows: list[int], region: Polygon) -> _Shape:
@@ -143,11 +144,13 @@ class _Shape:
         """True if its region contains a smaller one; both may share walls."""
         return bool(self.region.area > inner.region.area and self.grown.contains(inner.region))
 
-    def within_reach(self, distance: float) -> Polygon:
+    def within_reach(self, distance: float, corners: Literal["round", "mitre"] = "round") -> Polygon:
         """Return its region grown by a distance, shrunk by a negative one."""
-        if distance not in self.reached:
-            self.reached[distance] = self.region.buffer(distance)
-        return self.reached[distance]
+        if (distance, corners) not in self.reached:
+            region = self.region.buffer(distance, join_style=corners)
+            shapely.prepare(region)
+            self.reached[distance, corners] = region
+        return self.reached[distance, corners]
 
 
 def standing_walls(passes: Sequence[ClosedPass], side: Side) -> list[StandingWall]:
@@ -163,7 +166,8 @@ def standing_walls(passes: Sequence[ClosedPass], side: Side) -> list[StandingWal
         near = [shapes[index] for index in sorted(tree.query(shape.region).tolist())]
         behind = [other for other in near if shape.runs_as(other) and _is_behind(shape, other, side)]
         close = [row for other in behind for row in other.rows if _is_close(shape, other, passes[row].radius, side)]
-        steps = [passes[row] for other in behind for row in other.rows if passes[row].high > low + ON_PATH]
+        wide = [row for other in behind for row in other.rows if _is_wide(shape, other, passes[row].radius, side)]
+        steps = [passes[row] for row in wide if passes[row].high > low + ON_PATH]
         others = [_lowest([*steps, *_cutting(row, passes, close)]) for row in shape.rows]
         highest = None if None in others else max((each for each in others if each), key=lambda other: other.high)
         if highest is None:
@@ -188,9 +192,28 @@ def _is_behind(wall: _Shape, other: _Shape, side: Side) -> bool:
     return other.contains(wall) if wall.runs_inside(side) else wall.contains(other)
 
 
+def _share_walls(wall: _Shape, other: _Shape, side: Side) -> bool:
+    """True if a pass behind the wall shares walls with it."""
+    inner, outer = (wall, other) if wall.runs_inside(side) else (other, wall)
+    return not outer.region.contains(inner.grown)
+
+
 def _is_close(wall: _Shape, other: _Shape, radius: float, side: Side) -> bool:
     """True if a pass behind the wall shares no wall with it, and is nowhere farther than its cutter's diameter."""
+    if _share_walls(wall, other, side):
+        return False
     reach = 2.0 * (radius + MAX_CHORD_ERROR)
     if wall.runs_inside(side):
-        return bool(other.region.contains(wall.grown) and wall.region.contains(other.within_reach(-reach)))
-    return bool(wall.region.contains(other.grown) and other.within_reach(reach).contains(wall.region))
+        return bool(wall.region.contains(other.within_reach(-reach)))
+    return bool(other.within_reach(reach).contains(wall.region))
+
+
+def _is_wide(wall: _Shape, other: _Shape, radius: float, side: Side) -> bool:
+    """True if a pass behind the wall shares no wall with it, or is somewhere farther than its cutter's radius.
+
+    The distance is measured square to the walls.
+    """
+    if not _share_walls(wall, other, side):
+        return True
+    inner, outer = (wall, other) if wall.runs_inside(side) else (other, wall)
+    return not inner.within_reach(radius, "mitre").contains(outer.region)

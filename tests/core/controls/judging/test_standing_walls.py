@@ -170,8 +170,8 @@ def test_a_plunge_beside_the_wide_pass_gouges_the_bore_below_it() -> None:
 
 
 STEPS = {
-    "pocket": ("X30. Y20.", "X0. Y20.", "Y0.\nX{0}.\nY40.\nX0.\nY20.\n"),
-    "boss": ("X-30. Y20.", "X0. Y20.", "Y40.\nX{0}.\nY0.\nX0.\nY20.\n"),
+    "pocket": ("X30. Y20.", "X0. Y20.", "Y0.\nX{0}\nY40.\nX0.\nY20.\n"),
+    "boss": ("X-30. Y20.", "X0. Y20.", "Y40.\nX{0}\nY0.\nX0.\nY20.\n"),
     # the wall of the deep pass ends on a slanting wall of the wide one, rounded
     "triangle": ("X13. Y11.", "X15. Y5.", "X{0}\nX20. Y40.\nX0. Y0.\nX15. Y5.\n"),
 }
@@ -189,16 +189,16 @@ def step(shape: str, passes: list[tuple[str, float]]) -> list[Finding]:
 @pytest.mark.parametrize(
     ("shape", "passes"),
     [
-        ("pocket", [("50", -10), ("60", -5)]),
-        ("pocket", [("60", -5), ("50", -10)]),
+        ("pocket", [("50.", -10), ("60.", -5)]),
+        ("pocket", [("60.", -5), ("50.", -10)]),
         # more than a cutter's diameter wider
-        ("pocket", [("90", -5), ("50", -10)]),
-        ("pocket", [("50", -3), ("60", -3), ("50", -6), ("60", -6), ("50", -9)]),
+        ("pocket", [("90.", -5), ("50.", -10)]),
+        ("pocket", [("50.", -3), ("60.", -3), ("50.", -6), ("60.", -6), ("50.", -9)]),
         ("triangle", [("60. Y20.", -5), ("31.7 Y10.567", -10)]),
-        ("boss", [("60", -10), ("50", -5)]),
-        ("boss", [("50", -5), ("60", -10)]),
-        ("boss", [("90", -10), ("50", -5)]),
-        ("boss", [("50", -3), ("60", -3), ("50", -6), ("60", -6), ("60", -9)]),
+        ("boss", [("60.", -10), ("50.", -5)]),
+        ("boss", [("50.", -5), ("60.", -10)]),
+        ("boss", [("90.", -10), ("50.", -5)]),
+        ("boss", [("50.", -3), ("60.", -3), ("50.", -6), ("60.", -6), ("60.", -9)]),
     ],
 )
 def test_a_step_may_share_walls_with_the_deeper_pass(shape: str, passes: list[tuple[str, float]]) -> None:
@@ -211,15 +211,27 @@ def test_a_step_may_share_walls_with_the_deeper_pass(shape: str, passes: list[tu
     ("shape", "passes"),
     [
         # one outline in two depths, with a wrong coordinate in the last one
-        ("pocket", [("50", -5), ("60", -10)]),
-        ("pocket", [("50", -5), ("60", -5)]),
-        ("boss", [("60", -5), ("50", -10)]),
-        ("boss", [("60", -5), ("50", -5)]),
+        ("pocket", [("50.", -5), ("60.", -10)]),
+        ("pocket", [("50.", -5), ("60.", -5)]),
+        ("boss", [("60.", -5), ("50.", -10)]),
+        ("boss", [("60.", -5), ("50.", -5)]),
     ],
 )
 def test_a_pass_that_shares_a_wall_and_is_no_shallower_is_a_wall(shape: str, passes: list[tuple[str, float]]) -> None:
     findings = step(shape, passes)
     assert "GOUGE" in errors(findings)
+    assert not [finding for finding in findings if finding.code == "ROUGHING"]
+
+
+@pytest.mark.parametrize("wrong", [0.1, 0.5, 2.0])
+@pytest.mark.parametrize("heights", [(-5, -10), (-10, -5)])
+@pytest.mark.parametrize("shape", ["pocket", "boss"])
+def test_a_wrong_coordinate_at_one_of_several_depths_is_no_step(
+    shape: str, heights: tuple[int, int], wrong: float
+) -> None:
+    sizes = {-5: 50 + wrong if shape == "pocket" else 50 - wrong, -10: 50.0}
+    findings = step(shape, [(f"{sizes[height]}", height) for height in heights])
+    assert "GOUGE" in errors(findings), findings
     assert not [finding for finding in findings if finding.code == "ROUGHING"]
 
 
