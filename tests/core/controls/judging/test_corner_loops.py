@@ -107,14 +107,15 @@ def test_a_loop_may_lead_from_one_depth_to_the_next(control: str) -> None:
 
 
 @pytest.mark.parametrize(
-    "around",
+    ("control", "around"),
     [
-        pytest.param("X80.\nY0.\nX-14.\nY-20.\n", id="a loop narrower than the cutter"),
-        pytest.param("X80.\nY20.\nX-20.\nY-20.\n", id="back through the plate"),
+        pytest.param("haas:a", "X80.\nY0.\nX-14.\nY-20.\n", id="a loop narrower than the cutter"),
+        pytest.param("fanuc:a", "X80.\nY0.\nX10.\nY-20.\n", id="no loop"),
+        pytest.param("haas:a", "X80.\nY20.\nX-20.\nY-20.\n", id="back through the plate"),
     ],
 )
-def test_a_gouge_where_a_loop_leads_to_the_next_depth_is_found(around: str) -> None:
-    done = run(REPEATED.format(around=around).encode(), "haas:a", ToolTable.of(CutterTool(1, 16.0)))
+def test_a_gouge_where_a_loop_leads_to_the_next_depth_is_found(control: str, around: str) -> None:
+    done = run(REPEATED.format(around=around).encode(), control, ToolTable.of(CutterTool(1, 16.0)))
     assert isinstance(done, ControlRun)
     assert done.stopped_at is not None or any(result.verdict.gouges for result in judge_run(done))
 
