@@ -26,23 +26,23 @@ Names = Callable[[int, float], str]
 
 def by_number(_row: int, number: float) -> str:
     """Name a move by its number alone: k is the path of segment k, k + 1/2 the path at the corner after it."""
-    return f"the path of {int(number)}" if number == int(number) else f"the path at {_corner(number)}"
+    return f"the path of segment {int(number)}" if number == int(number) else f"the path at {_corner(number)}"
 
 
 def move_name(path: Path, row: int, surface: Path) -> str:
     """Name a move of a compensated path: along a segment, around a corner, or straight across a place too tight."""
     number = path.numbers[row].item()
     if number != int(number):
-        arc = f"the corner arc after {int(number)}"
+        arc = f"the corner arc after segment {int(number)}"
         return arc if path.turns[row] else f"the straight move across {_corner(number)}"
     segment = np.flatnonzero(surface.numbers == number)
     if len(segment) and surface.turns[segment[0]] and not path.turns[row]:
-        return f"the straight move across {int(number)}"
-    return f"the path of {int(number)}"
+        return f"the straight move across segment {int(number)}"
+    return f"the path of segment {int(number)}"
 
 
 def _corner(number: float) -> str:
-    return f"the corner after {int(number)}"
+    return f"the corner after segment {int(number)}"
 
 
 def verdict_findings(verdict: Verdict, surface: Path, names: Names = by_number) -> tuple[Finding, ...]:

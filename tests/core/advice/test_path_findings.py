@@ -175,9 +175,9 @@ def test_moves_are_named_by_their_part_of_the_path() -> None:
     (loop,) = paths.loops
     name, count = move_names(paths), len(loop.whole)
     assert "blend-in arc" in name(0, 1.0)
-    assert name(1, 1.0).endswith("the path of 1")
-    assert name(len(loop.lead_in) + len(loop.path) - 1, 7.0).endswith("the path of 7")
-    assert name(count - 2, 1.0).endswith("the path of 1 past START")
+    assert name(1, 1.0).endswith("the path of segment 1")
+    assert name(len(loop.lead_in) + len(loop.path) - 1, 7.0).endswith("the path of segment 7")
+    assert name(count - 2, 1.0).endswith("the path of segment 1 past START")
     assert "blend-out arc" in name(count - 1, 1.0)
     with pytest.raises(IndexError):
         name(count, 1.0)

@@ -40,10 +40,11 @@ def test_an_island_too_near_to_its_pocket() -> None:
     first, second = cuts(pocket, near)
     assert first[::2] == (1, 0.1)
     assert first[1] == (
-        "The path of 4 cuts {value} into the contour of block 2 at X {x} Y {y}. Check that this wall may be cut."
+        "The path of segment 4 cuts {value} into the contour of block 2 at X {x} Y {y}. "
+        "Check that this wall may be cut."
     )
     assert second[::2] == (2, 0.1)
-    assert second[1].startswith("The path of 1 cuts {value} into the contour of block 1 ")
+    assert second[1].startswith("The path of segment 1 cuts {value} into the contour of block 1 ")
     assert not cuts(pocket, island(0.5, 1, 2, 2))
 
 
@@ -80,7 +81,7 @@ def test_a_groove_without_compensation_through_a_wall() -> None:
     groove = block(((2, 1.5), (6, 1.5)), CutterComp.ON)
     [(number, text, _)] = cuts(block(POCKET, CutterComp.LEFT), groove)
     assert number == 2
-    assert text.startswith("The path of 1 runs through the contour of block 1 at X {x} Y {y}. ")
+    assert text.startswith("The path of segment 1 runs through the contour of block 1 at X {x} Y {y}. ")
 
 
 def test_a_block_that_cannot_be_posted_is_not_compared() -> None:

@@ -184,9 +184,9 @@ def test_a_move_past_start_that_gouges_is_named():
     assert work is not None
     name = move_names(work)
     rows = np.cumsum([0, *(len(part) for loop in work.loops for part in (loop.lead_in, loop.path, loop.lead_out))])
-    assert name(0, 1.0) == "the path of 1"
-    assert name(rows[2] - 1, 0.0) == "the path of 7"
-    assert name(rows[3] - 1, 0.0) == "the path of 1 past START"
+    assert name(0, 1.0) == "the path of segment 1"
+    assert name(rows[2] - 1, 0.0) == "the path of segment 7"
+    assert name(rows[3] - 1, 0.0) == "the path of segment 1 past START"
 
 
 def test_a_tool_larger_than_the_part_is_reported():

@@ -28,7 +28,7 @@ def test_the_depth_of_a_gouge_from_behind_is_limited_to_the_diameter() -> None:
     for move, depth in ((lines((5, 3), (5, -0.5), (9, -0.5)), "1.500"), (lines((5, 3), (5, -4)), "2.000 or more")):
         gouge, wrong, *_ = verdict_findings(judge(WALL, Side.LEFT, 1.0, move), WALL)
         assert sentence(gouge, Unit.MM).startswith(
-            f"GOUGE {depth} deep in segment 1 at X 5.000 Y 0.000, by the path of 1."
+            f"GOUGE {depth} deep in segment 1 at X 5.000 Y 0.000, by the path of segment 1."
         )
         assert sentence(wrong, Unit.MM).startswith("The cutter is on the wrong side for ")
 
@@ -40,7 +40,7 @@ def test_a_gouge_names_both_segments_and_the_place() -> None:
     assert gouge.segment == 1
     assert gouge.at == (5.0, 0.0)
     assert gouge.value == 0.5
-    assert sentence(gouge, Unit.MM) == "GOUGE 0.500 deep in segment 1 at X 5.000 Y 0.000, by the path of 1."
+    assert sentence(gouge, Unit.MM) == "GOUGE 0.500 deep in segment 1 at X 5.000 Y 0.000, by the path of segment 1."
     assert gouge.lengths == pytest.approx((verdict.gouges[0].extent,))
 
 
@@ -54,10 +54,10 @@ def test_a_move_is_named_by_its_kind() -> None:
     ]
     path = Path.from_pieces(pieces, [1.0, 1.5, 2.0, 2.5])
     assert [move_name(path, row, surface) for row in range(4)] == [
-        "the path of 1",
-        "the straight move across the corner after 1",
-        "the straight move across 2",
-        "the corner arc after 2",
+        "the path of segment 1",
+        "the straight move across the corner after segment 1",
+        "the straight move across segment 2",
+        "the corner arc after segment 2",
     ]
 
 
@@ -65,7 +65,7 @@ def test_a_half_number_without_its_corner_arc_names_the_corner() -> None:
     path = lines((0, 1), (5, 0.5), (10, 1))
     half = type(path).of(path.points, path.centers, path.turns, path.numbers + 0.5)
     (gouge,) = verdict_findings(judge(WALL, Side.LEFT, 1.0, half), WALL)
-    assert gouge.text.endswith("by the path at the corner after 1.")
+    assert gouge.text.endswith("by the path at the corner after segment 1.")
 
 
 def test_small_values_are_not_shown_as_zero() -> None:
