@@ -22,7 +22,7 @@ from core.verify.report import Names
 
 
 def with_block_cuts(blocks: Sequence[DerivedBlock], program: Program) -> tuple[DerivedBlock, ...]:
-    """Add to each block a warning for every other block's contour that it cuts no deeper than that is cut.
+    """Add to each block a warning for every other block's contour that its path cuts into.
 
     Only blocks that can be posted are compared.
     """
@@ -32,7 +32,7 @@ def with_block_cuts(blocks: Sequence[DerivedBlock], program: Program) -> tuple[D
         return tuple(blocks)
     sweeps = {sweep: rows for block, paths, work in ready for sweep, rows in _sweeps(block, paths, work)}
     found = defaultdict[int, list[Finding]](list)
-    for cut in cuts_into_other_contours(walls, list(sweeps)):
+    for cut in _without_pairs(cuts_into_other_contours(walls, list(sweeps))):
         found[cut.sweep.number].append(_finding(cut, *sweeps[cut.sweep]))
     return tuple(
         replace(block, findings=by_severity((*block.findings, *more))) if (more := found.get(block.number)) else block
@@ -64,6 +64,15 @@ def _sweeps(block: DerivedBlock, paths: BlockPaths, work: Job) -> Iterator[tuple
             path = replace(loop.whole, numbers=rows)
             yield Sweep(path, heights(work, loop), cutter.diameter / 2, shapes, number=block.number), (names, numbers)
             first += len(rows)
+
+
+def _without_pairs(cuts: Sequence[ContourCut]) -> Iterator[ContourCut]:
+    """Yield the cuts; where two paths run through each other's contours, only that of the later block."""
+    through = {(cut.sweep.number, cut.wall.number) for cut in cuts if cut.through}
+    for cut in cuts:
+        path, wall = cut.sweep.number, cut.wall.number
+        if path > wall or not {(path, wall), (wall, path)} <= through:
+            yield cut
 
 
 def _finding(cut: ContourCut, names: Names, numbers: Floats) -> Finding:

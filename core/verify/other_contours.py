@@ -11,13 +11,13 @@ Shapely finds the doubtful cuts, with chords for arcs; those reported are measur
 from __future__ import annotations
 
 from collections import defaultdict
-from collections.abc import Hashable, Iterator, Sequence
+from collections.abc import Hashable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
 from typing import Final
 
 import numpy as np
 import shapely
-from shapely.geometry import LineString, Polygon
+from shapely.geometry import LineString, Point, Polygon
 from shapely.geometry.base import BaseGeometry
 
 from core.geometry.chords import chords_of
@@ -46,7 +46,7 @@ MAX_ISLAND_SHARE: Final = 0.01
 """An island is destroyed if no more than this share of its inside stays."""
 
 MAX_MEASURED_PATHS: Final = 10
-"""Most paths into one contour whose cuts are measured."""
+"""Most paths of one number into one contour whose cuts are measured."""
 
 
 @dataclass(frozen=True, eq=False, slots=True)
@@ -64,6 +64,10 @@ class Wall:
     accepted: float = ARC_RADII
     setup: int = 0
     number: int = 0
+
+    def line(self) -> LineString:
+        """Return its path as chords."""
+        return LineString(chords_of(self.path, MAX_CHORD_ERROR))
 
 
 @dataclass(frozen=True, eq=False, slots=True)
@@ -102,7 +106,7 @@ class Sweep:
 
     def reaches(self, line: BaseGeometry, top: float) -> bool:
         """True if the cutter goes deeper than MIN_CUT_DEPTH into a wall, in the parts no higher than `top`."""
-        return any(bool(shapely.dwithin(part, line, self.radius - MIN_CUT_DEPTH)) for part in self.lines(top))
+        return any(bool(shapely.dwithin(line, part, self.radius - MIN_CUT_DEPTH)) for part in self.lines(top))
 
 
 @dataclass(frozen=True, slots=True)
@@ -122,11 +126,15 @@ class ContourCut:
 def cuts_into_other_contours(
     walls: Sequence[Wall], sweeps: Sequence[Sweep], progress: Progress = silent
 ) -> list[ContourCut]:
-    """Return the deepest cut into each wall by sweeps that have another shape and run no higher than its top."""
+    """Return the deepest cut into each wall by the sweeps of each number, which have another shape and run no higher
+    than its top."""
     walls, sweeps = [wall for wall in walls if len(wall.path)], [sweep for sweep in sweeps if len(sweep.path)]
     if not walls or not sweeps:
         return []
     cuts, reach = list[ContourCut](), max(sweep.radius for sweep in sweeps)
+    by_shape = defaultdict[Hashable, list[Wall]](list)
+    for wall in walls:
+        by_shape[wall.shape].append(wall)
     bounds = _bounds([wall.path for wall in walls])
     for rows, near in near_pairs(bounds, _bounds([sweep.path for sweep in sweeps]), reach):
         pairs = defaultdict[int, list[Sweep]](list)
@@ -135,8 +143,7 @@ def cuts_into_other_contours(
                 pairs[row].append(sweeps[index])
         for row, others in pairs.items():
             progress(row / len(walls))
-            if (cut := _cut(walls[row], others)) is not None:
-                cuts.append(cut)
+            cuts += _cuts(walls[row], others, by_shape)
     return cuts
 
 
@@ -146,40 +153,64 @@ def _bounds(paths: Sequence[Path]) -> Floats:
     return np.array([(*box[:2].min(axis=1), *box[2:].max(axis=1)) for box in boxes]).T.reshape(4, -1)
 
 
-def _cut(wall: Wall, sweeps: Sequence[Sweep]) -> ContourCut | None:
-    """Return the deepest cut of these sweeps into a wall; None if there is none, or the wall was not to stay."""
-    others = [sweep for sweep in sweeps if wall.shape not in sweep.shapes]
-    if not any(sweep.reaches(LineString(chords_of(wall.path, MAX_CHORD_ERROR)), wall.top) for sweep in others):
-        return None
+def _cuts(wall: Wall, sweeps: Sequence[Sweep], walls: Mapping[Hashable, Sequence[Wall]]) -> Iterator[ContourCut]:
+    """Yield the deepest cut into a wall by the sweeps of each number; none if the wall was not to stay."""
+    others, chords = [sweep for sweep in sweeps if wall.shape not in sweep.shapes], wall.line()
+    shapely.prepare(chords)
+    if not any(sweep.reaches(chords, wall.top) for sweep in others):
+        return
     own = [sweep.region(wall.top, MIN_CUT_DEPTH) for sweep in sweeps if wall.shape in sweep.shapes]
-    cut_region = shapely.union_all(own)
-    line, inside = _outline(wall.path, cut_region)
-    stands, core, cutting = line.intersection(cut_region), inside, list[Sweep]()
+    cut_region, inside = shapely.union_all(own), _enclosed(chords)
+    line = _outline(chords)
+    # an island's own path stays outside it
+    if inside.intersection(cut_region).area >= inside.length * 3.0 * MIN_CUT_DEPTH:
+        inside = Polygon()
+    stands, core, cutting = line.intersection(cut_region), inside, defaultdict[int, list[Sweep]](list)
     for sweep in others:
         region = sweep.region(wall.top, -MIN_CUT_DEPTH)
         if not region.intersects(line):
             continue
-        cutting.append(sweep)
+        cutting[sweep.number].append(sweep)
         stands, core = stands.difference(region), core.difference(region)
         if stands.length <= MAX_WALL_LEFT and inside.is_empty:
-            return None
+            return
     destroyed = not inside.is_empty and core.area <= MAX_ISLAND_SHARE * inside.area
-    if not cutting or (stands.length <= MAX_WALL_LEFT and not destroyed):
-        return None
-    cuts = (cut for sweep in cutting[:MAX_MEASURED_PATHS] for cut in _measured(wall, sweep))
-    return max(cuts, key=lambda cut: cut.gouge.depth, default=None)
+    if stands.length <= MAX_WALL_LEFT and not destroyed:
+        return
+    for group in cutting.values():
+        cuts = (
+            cut
+            for sweep in group[:MAX_MEASURED_PATHS]
+            for cut in _measured(wall, sweep)
+            if not _in_over_run(chords, cut, [each for shape in sweep.shapes for each in walls[shape]])
+        )
+        if deepest := max(cuts, key=lambda cut: cut.gouge.depth, default=None):
+            yield deepest
 
 
-def _outline(path: Path, own: BaseGeometry) -> tuple[BaseGeometry, BaseGeometry]:
-    """Return a contour as a line, without over-runs if it encloses something, and what material it encloses."""
-    line = LineString(chords_of(path, MAX_CHORD_ERROR))
-    regions = list(shapely.get_parts(shapely.polygonize([shapely.node(line)])))
-    largest = max(regions, key=lambda region: region.area, default=Polygon())
-    if largest.is_empty:
-        return line, largest
-    # an island's own path stays outside it
-    is_island = largest.intersection(own).area < largest.length * 3.0 * MIN_CUT_DEPTH
-    return largest.exterior, largest if is_island else Polygon()
+def _in_over_run(chords: LineString, cut: ContourCut, crossing: Sequence[Wall]) -> bool:
+    """True if a cut is in the over-run of an open contour, past where it crosses the contours that the sweep cuts.
+
+    A slot that is open to an edge runs on past it, and two sides past their corner.
+    """
+    if not _enclosed(chords).is_empty:
+        return False
+    points = [part for other in crossing for part in shapely.get_parts(chords.intersection(_outline(other.line())))]
+    along = [chords.project(point) for point in points if isinstance(point, Point)]
+    place = chords.project(Point(cut.gouge.surface_at))
+    return bool(along) and not min(along) <= place <= max(along)
+
+
+def _enclosed(line: LineString) -> Polygon:
+    """Return the largest region that a contour encloses; it is empty for an open one."""
+    regions = shapely.get_parts(shapely.polygonize([shapely.node(line)]))
+    return max(regions, key=lambda region: region.area, default=Polygon())
+
+
+def _outline(line: LineString) -> BaseGeometry:
+    """Return a contour without over-runs if it encloses something."""
+    enclosed = _enclosed(line)
+    return line if enclosed.is_empty else enclosed.exterior
 
 
 def _measured(wall: Wall, sweep: Sweep) -> Iterator[ContourCut]:

@@ -84,6 +84,40 @@ def test_a_groove_without_compensation_through_a_wall() -> None:
     assert text.startswith("The path of segment 1 runs through the contour of block 1 at X {x} Y {y}. ")
 
 
+SLOT = ((5, 2), (3, 2), (3, 1), (5, 1))
+"""From X 3 out to the right, its walls at Y 1 and Y 2; it runs on past a profile's edge at X 4."""
+
+
+def test_a_slot_open_to_the_edge_is_named_once() -> None:
+    """The profile's path crosses the slot's walls at X 4.25: only where the slot runs on outside the part."""
+    profile, slot = island(0, 0, 4, 3), block(SLOT, CutterComp.LEFT)
+    [(number, text, _)] = cuts(profile, slot)
+    assert number == 2
+    assert text.startswith("The path of segment 1 runs through the contour of block 1 ")
+    assert [number for number, *_ in cuts(slot, profile)] == [1]
+    assert not cuts(island(0, 0, 4, 3, z_bottom=Number(-0.5)), slot)
+
+
+def test_each_block_that_cuts_into_one_contour_is_named() -> None:
+    left = tuple((4 - x, y) for x, y in reversed(SLOT))
+    profile, slots = island(0, 0, 4, 3), (block(SLOT, CutterComp.LEFT), block(left, CutterComp.LEFT))
+    assert [number for number, *_ in cuts(profile, *slots)] == [2, 3]
+    assert [number for number, *_ in cuts(profile, *slots, slots[0])] == [2, 3, 4]
+
+
+def test_two_sides_that_run_on_past_their_corner() -> None:
+    bottom = block(((5, 0), (-1, 0)), CutterComp.LEFT)
+    right = block(((4, 4), (4, -1)), CutterComp.LEFT)
+    assert not cuts(bottom, right)
+
+
+def test_a_pocket_that_runs_on_past_the_edge_is_named_once() -> None:
+    """Both are closed and cross at X 4: each path runs through the other contour."""
+    profile, pocket = island(0, 0, 4, 3), block(((5, 1.5), *SLOT, (5, 1.5)), CutterComp.LEFT)
+    assert [number for number, *_ in cuts(profile, pocket)] == [2]
+    assert [number for number, *_ in cuts(pocket, profile)] == [2]
+
+
 def test_a_block_that_cannot_be_posted_is_not_compared() -> None:
     pocket = block(POCKET, CutterComp.LEFT)
     derived = derive(program(pocket, island(0.4, 1, 2, 2, tool=Number(9))))
