@@ -101,7 +101,7 @@ def block_scene(block: DerivedBlock, segment: int | None, unit: Unit, row: Row |
         deleted=NO_PARTS if control is None else _deleted(control),
         meetings=() if control is None else list(dict.fromkeys(zip(*control.deleted.at.T.tolist(), strict=True))),
         over_run=NO_PARTS if verdict is None else _over_run(surface, verdict),
-        gouges=() if verdict is None else [gouge.surface_at for gouge in verdict.gouges],
+        gouges=[*(() if verdict is None else [gouge.surface_at for gouge in verdict.gouges]), *_cuts_of_others(block)],
         uncut=NO_PARTS if verdict is None or not verdict.uncut else parts_between(surface, verdict.uncut_ends),
         cutter=_cutter(block, loops, control, segment),
         current=_current(block, segment),
@@ -231,6 +231,11 @@ def _segment_labels(block: DerivedBlock) -> tuple[Label, ...]:
             size = hypot(x, y) * (1.0 if block.side is Side.RIGHT else -1.0)
             labels.append(Label(at, str(number), (-y / size, x / size)))
     return tuple(labels)
+
+
+def _cuts_of_others(block: DerivedBlock) -> list[Point]:
+    """Return where the block's path cuts into the contours of other blocks."""
+    return [found.at for found in block.findings if found.code == "OTHER_BLOCK" and found.at is not None]
 
 
 def _over_run(surface: Path, verdict: Verdict) -> PathParts:

@@ -166,6 +166,15 @@ def test_gouged_and_uncut_regions_and_the_cross_are_in_the_picture():
     assert crossed.picture != Subject(notch, Unit.IN).drawn(60, 20, Mode.BRAILLE).picture
 
 
+def test_the_place_where_a_path_cuts_into_another_contour_is_marked():
+    """The groove runs through the left wall, X 0, with its edge at Y 1.25."""
+    part = program(block(MID_SIDE_SQUARE, CutterComp.LEFT), block(((1, 1), (-1, 1)), CutterComp.ON))
+    scene = block_scene(derive(part).blocks[1], None, Unit.IN)
+    [(x, y)] = [mark.at for mark in scene.marks if mark.symbol is Symbol.GOUGE]
+    assert x == pytest.approx(0.0)
+    assert 0.75 <= y / 25.4 <= 1.25
+
+
 def test_a_row_of_the_look_ahead_table_is_drawn_with_its_own_path():
     part = program(block(NOTCH, CutterComp.LEFT, lookahead=Number(1)))
     notch = derived(part)
