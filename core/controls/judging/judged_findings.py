@@ -222,10 +222,10 @@ def _leads(result: Judged) -> Iterator[Finding]:
     """Report moves that are treated as leads, and the cuts into them."""
     if not result.leads:
         return
-    text = f"{len(result.leads)} moves before or after a contour are treated as lead moves, not part."
+    text = f"{len(result.leads)} moves before or after a contour are treated as lead moves, not as part of it."
     check = "They are long. Check that none of them is a wall."
     if len(result.leads) == 1:
-        text = "A move before or after a contour is treated as a lead move, not part."
+        text = "A move before or after a contour is treated as a lead move, not as part of it."
         check = "It is long. Check that it is no wall."
     severity = Severity.INFO
     if result.long_leads:
@@ -291,7 +291,7 @@ def _uncut(result: Judged) -> list[Finding]:
     worst = max(verdict.uncut, key=lambda stretch: stretch.thickness)
     too_small = worst.thickness < SMALLEST_SHOWN_LENGTH
     thick = "less than {2}" if too_small else "at most {value}"
-    text = f"{{0}} of {{1}} of the surface stays uncut, {thick} thick at X {{x}} Y {{y}}."
+    text = f"{{0}} of the surface's {{1}} stays uncut, {thick} thick at X {{x}} Y {{y}}."
     lengths = (verdict.uncut_length, verdict.surface_length, *((LAST_INCH_DIGIT,) if too_small else ()))
     line, at = int(worst.first_number), worst.thickest
     severity = Severity.INFO if too_small else Severity.WARNING
