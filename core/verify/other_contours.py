@@ -13,6 +13,7 @@ from __future__ import annotations
 from collections import defaultdict
 from collections.abc import Hashable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
+from math import inf
 from typing import Final
 
 import numpy as np
@@ -126,8 +127,7 @@ class ContourCut:
 def cuts_into_other_contours(
     walls: Sequence[Wall], sweeps: Sequence[Sweep], progress: Progress = silent
 ) -> list[ContourCut]:
-    """Return the deepest cut into each wall by the sweeps of each number, which have another shape and run no higher
-    than its top."""
+    """Return each number's deepest cut into each wall, by sweeps of another shape that run no higher than its top."""
     walls, sweeps = [wall for wall in walls if len(wall.path)], [sweep for sweep in sweeps if len(sweep.path)]
     if not walls or not sweeps:
         return []
@@ -160,8 +160,8 @@ def _cuts(wall: Wall, sweeps: Sequence[Sweep], walls: Mapping[Hashable, Sequence
     if not any(sweep.reaches(chords, wall.top) for sweep in others):
         return
     own = [sweep.region(wall.top, MIN_CUT_DEPTH) for sweep in sweeps if wall.shape in sweep.shapes]
-    cut_region, inside = shapely.union_all(own), _enclosed(chords)
-    line = _outline(chords)
+    cut_region, inside, line = shapely.union_all(own), _enclosed(chords), _outline(chords)
+    is_open = inside.is_empty
     # an island's own path stays outside it
     if inside.intersection(cut_region).area >= inside.length * 3.0 * MIN_CUT_DEPTH:
         inside = Polygon()
@@ -178,27 +178,24 @@ def _cuts(wall: Wall, sweeps: Sequence[Sweep], walls: Mapping[Hashable, Sequence
     if stands.length <= MAX_WALL_LEFT and not destroyed:
         return
     for group in cutting.values():
-        cuts = (
-            cut
-            for sweep in group[:MAX_MEASURED_PATHS]
-            for cut in _measured(wall, sweep)
-            if not _in_over_run(chords, cut, [each for shape in sweep.shapes for each in walls[shape]])
-        )
-        if deepest := max(cuts, key=lambda cut: cut.gouge.depth, default=None):
-            yield deepest
+        cuts = list[ContourCut]()
+        for sweep in group[:MAX_MEASURED_PATHS]:
+            crossed = [each for shape in sweep.shapes for each in walls[shape]] if is_open else ()
+            first, last = _ends(chords, crossed)
+            places = ((chords.project(Point(cut.gouge.surface_at)), cut) for cut in _measured(wall, sweep))
+            cuts += [cut for place, cut in places if first <= place <= last]
+        if cuts:
+            yield max(cuts, key=lambda cut: cut.gouge.depth)
 
 
-def _in_over_run(chords: LineString, cut: ContourCut, crossing: Sequence[Wall]) -> bool:
-    """True if a cut is in the over-run of an open contour, past where it crosses the contours that the sweep cuts.
+def _ends(open_line: LineString, crossed: Sequence[Wall]) -> tuple[float, float]:
+    """Return between which lengths along an open contour it is wall: it runs on past the contours that it crosses.
 
-    A slot that is open to an edge runs on past it, and two sides past their corner.
+    A slot runs on past the edge to which it is open, and each of two sides past their corner.
     """
-    if not _enclosed(chords).is_empty:
-        return False
-    points = [part for other in crossing for part in shapely.get_parts(chords.intersection(_outline(other.line())))]
-    along = [chords.project(point) for point in points if isinstance(point, Point)]
-    place = chords.project(Point(cut.gouge.surface_at))
-    return bool(along) and not min(along) <= place <= max(along)
+    crossings = (shapely.get_parts(open_line.intersection(_outline(other.line()))) for other in crossed)
+    along = [open_line.project(point) for points in crossings for point in points if isinstance(point, Point)]
+    return min(along, default=0.0), max(along, default=inf)
 
 
 def _enclosed(line: LineString) -> Polygon:

@@ -77,6 +77,13 @@ def test_a_step_above_a_deeper_wall_is_none() -> None:
     assert told(box(0, 0, 40, -5), box(3, 3, 37, -10))
 
 
+def test_an_open_slot_is_no_wall_past_the_edge() -> None:
+    """The boss ends at X 40, the slot at X 60: the path around the boss, at X 45, crosses what is no wall."""
+    slot = "G0 X70 Y20\nG1 Z-5\nG41 D1 X60 Y30\nX20\nY10\nX60\nG40 X70 Y20\nG0 Z2\n"
+    found = told(box(0, 0, 40, -5), slot)
+    assert [line for line, _ in found] == [15]
+
+
 def test_a_slot_through_a_wall_is_asked_about() -> None:
     slot = "G0 X30 Y-20\nG1 Z-5\nG42 D1 X23 Y-12\nY20\nG2 X37 R7\nG1 Y-12\nG40 X30 Y-20\nG0 Z2\n"
     assert told(box(0, 0, 60, -5), slot)
