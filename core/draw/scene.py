@@ -48,7 +48,7 @@ class Style(IntEnum):
     GOUGE_AREA = 15
     UNCUT_AREA = 16
     UNTAKEN = 17
-    """Alternative solutions of a segment or a run that are not chosen."""
+    """Alternative solutions of a segment or a run that are not chosen, and contours of other blocks."""
 
 
 DOTTED_STYLES: Final = frozenset({Style.DELETED, Style.UNTAKEN})

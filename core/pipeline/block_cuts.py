@@ -22,7 +22,7 @@ from core.verify.report import Names
 
 
 def with_block_cuts(blocks: Sequence[DerivedBlock], program: Program) -> tuple[DerivedBlock, ...]:
-    """Add to each block a warning for every other block's contour that its path cuts into.
+    """Add to each block every other block's contour that its path cuts into, with a warning.
 
     Only blocks that can be posted are compared.
     """
@@ -31,11 +31,17 @@ def with_block_cuts(blocks: Sequence[DerivedBlock], program: Program) -> tuple[D
     if not walls:
         return tuple(blocks)
     sweeps = {sweep: rows for block, paths, work in ready for sweep, rows in _sweeps(block, paths, work)}
-    found = defaultdict[int, list[Finding]](list)
+    cuts = defaultdict[int, list[ContourCut]](list)
     for cut in _without_pairs(cuts_into_other_contours(walls, list(sweeps))):
-        found[cut.sweep.number].append(_finding(cut, *sweeps[cut.sweep]))
+        cuts[cut.sweep.number].append(cut)
     return tuple(
-        replace(block, findings=by_severity((*block.findings, *more))) if (more := found.get(block.number)) else block
+        replace(
+            block,
+            findings=by_severity((*block.findings, *(_finding(cut, *sweeps[cut.sweep]) for cut in own))),
+            cut_contours=tuple(cut.wall.path for cut in own),
+        )
+        if (own := cuts.get(block.number))
+        else block
         for block in blocks
     )
 

@@ -4,12 +4,16 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 from enum import StrEnum
+from typing import TYPE_CHECKING
 
 from core.advice.block_paths import BlockPaths
 from core.finding import Finding, Severity
 from core.geometry.piece import Side
 from core.program.model import Block, Program
 from core.program.solve.solved import SolvedBlock
+
+if TYPE_CHECKING:
+    from core.geometry.path import Path
 
 
 class Tag(StrEnum):
@@ -35,7 +39,7 @@ class DerivedBlock:
     `radius` is the finish path's cutter radius in millimeters, None without a usable tool; `side` is None for ON.
     `profile`: CUTTER COMP. is PROFILE LEFT or RIGHT, so that roughing comes in from MAX OFFSET.  After the first stage
     only fields and look-ahead are calculated, and `complete` is False.  In a complete block `paths` is None if there is
-    no surface or no radius.
+    no surface or no radius.  `cut_contours` are those of other blocks that its path cuts into.
     """
 
     number: int
@@ -48,6 +52,7 @@ class DerivedBlock:
     paths: BlockPaths | None
     complete: bool
     findings: tuple[Finding, ...]
+    cut_contours: tuple[Path, ...] = ()
 
     @property
     def postable(self) -> bool:

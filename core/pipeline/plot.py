@@ -20,6 +20,7 @@ from core.draw.scene import (
     Area,
     Box,
     Label,
+    Layer,
     Mark,
     Scene,
     Style,
@@ -137,6 +138,9 @@ class Subject:
         if bounds is None or columns < 1 or rows < 1:
             return None
         view, look = _view_of(self, bounds, columns, rows), CELLS_OF_MODE[mode]
+        if not self.outline:
+            others = (Layer(path, Style.UNTAKEN, dashed=True) for path in self.block.cut_contours)
+            scene = replace(scene, layers=(*others, *scene.layers))
         dot = view.scale * look.dot[0]
         dots = (self.block.radius or 0.0) / dot
         if dots < MIN_DOTS:

@@ -175,6 +175,18 @@ def test_the_place_where_a_path_cuts_into_another_contour_is_marked():
     assert 0.75 <= y / 25.4 <= 1.25
 
 
+def test_the_contour_that_a_path_cuts_into_is_dotted_where_it_is_in_view():
+    """The view is that of the groove alone, X -1 to 1; the square reaches X 2."""
+    square, groove = block(MID_SIDE_SQUARE, CutterComp.LEFT), block(((1, 1), (-1, 1)), CutterComp.ON)
+    drawn = [
+        Subject(derive(program(*blocks)).blocks[-1], Unit.IN).drawn(60, 20, Mode.BRAILLE)
+        for blocks in ((square, groove), (groove,))
+    ]
+    assert drawn[0].bounds == drawn[1].bounds
+    dotted = [any(Style.UNTAKEN in row for row in each.picture.styles) for each in drawn]
+    assert dotted == [True, False]
+
+
 def test_a_row_of_the_look_ahead_table_is_drawn_with_its_own_path():
     part = program(block(NOTCH, CutterComp.LEFT, lookahead=Number(1)))
     notch = derived(part)
