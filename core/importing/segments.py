@@ -11,7 +11,7 @@ from math import degrees, dist
 from typing import Final
 
 from core.finding import Severity
-from core.geometry.piece import Arc, Piece, Point, Side, Turn
+from core.geometry.piece import Arc, Line, Piece, Point, Side, Turn
 from core.importing.contour import Contour
 from core.program.edit import new_block
 from core.program.fields import LARGEST_LENGTH
@@ -123,7 +123,7 @@ def _notes(contour: Contour, decimals: int, usual: int, *, asked: bool) -> tuple
 
 def _block(contour: Contour, program: Program, decimals: int) -> Block:
     unit = program.unit
-    start = _typed(contour.start, unit, decimals)
+    start = _start(contour, unit, decimals)
     segments: list[Segment] = []
     for row, piece in enumerate(contour.pieces):
         last = row == len(contour.pieces) - 1
@@ -135,6 +135,28 @@ def _block(contour: Contour, program: Program, decimals: int) -> Block:
     return replace(
         block, cutter_comp=comp, x_start=Number(start[0]), y_start=Number(start[1]), segments=tuple(segments)
     )  # fmt: skip
+
+
+def _start(contour: Contour, unit: Unit, decimals: int) -> Point:
+    """Return START in program units, rounded; where it divides a line, to the tool's side of that line.
+
+    Rounded to the other side it would be an inside corner of a few microns, and the path runs on into such a corner at
+    START.  It goes around an outside one.
+    """
+    start, first, last = _typed(contour.start, unit, decimals), contour.pieces[0], contour.pieces[-1]
+    if contour.side is None or len(contour.pieces) <= contour.drawn or not isinstance(first, Line):
+        return start
+    (ax, ay), (bx, by), digit = _typed(last.start, unit, decimals), _typed(first.end, unit, decimals), 10.0**-decimals
+    xs, ys = ([round(value + step * digit, decimals) + 0.0 for step in (-1, 0, 1)] for value in start)
+    near = [(x, y) for x in xs for y in ys]
+    outside = (
+        (x, y)
+        for x, y in near
+        # all factors are whole numbers of digits
+        if contour.side.sign * ((bx - ax) * (y - ay) - (by - ay) * (x - ax)) > -0.5 * digit**2
+    )
+    exact = [from_mm(value, unit) for value in contour.start]
+    return min(outside, key=lambda point: dist(point, exact), default=start)
 
 
 def _typed(point: Point, unit: Unit, decimals: int) -> Point:

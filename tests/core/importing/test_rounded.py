@@ -18,7 +18,7 @@ from core.controls.control_tools import CutterTool, ToolTable
 from core.controls.write.written_program import Posted
 from core.geometry.path import Path
 from core.geometry.piece import Arc, Line, Piece, Point, Side, Turn
-from core.importing.contour import Contour, fitted_contour
+from core.importing.contour import Contour, ContourKind, fitted_contour, reversed_contour
 from core.importing.nc import read_nc
 from core.importing.nc_contour import nc_blocks
 from core.importing.segments import block_of, with_contours
@@ -163,6 +163,22 @@ def test_a_contour_of_arcs_closes_and_is_clean(unit: Unit) -> None:
         program = replace(program, blocks=(replace(program.blocks[0], z_bottom=Number(-1.0)),))
         codes = {finding.code for finding in derive(program).blocks[0].findings}
         assert not codes & {"GOUGE", "NEARLY_CLOSED"}, (seed, made.decimals, codes)
+
+
+@pytest.mark.parametrize("unit", list(Unit))
+def test_a_start_on_a_slanted_line_makes_no_inside_corner(unit: Unit) -> None:
+    """Rounded toward the part, START would be an inside corner of a few microns, which the path does not avoid."""
+    diameter = Number(8.0 if unit is Unit.MM else 0.3)
+    empty = Program(unit=unit, tools=(Tool(1, diameter=diameter, speed=Number(3000.0), plunge_feed=Number(20.0)),))
+    for degrees in range(1, 60, 2):
+        corners = [(30.0 * cos(at), 30.0 * sin(at)) for at in (degrees * pi / 180 + k * pi / 3 for k in range(7))]
+        contour = listed(dxf(*(line(start, end) for start, end in pairwise(corners)))).contours[0]
+        for each in (contour, reversed_contour(contour), replace(contour, kind=ContourKind.HOLE)):
+            program, (made,) = with_contours(empty, [each])
+            program = replace(program, blocks=(replace(program.blocks[0], z_bottom=Number(-1.0)),))
+            codes = {finding.code for finding in derive(program).blocks[0].findings}
+            assert not codes & {"GOUGE", "BLEND_GOUGES", "BACKWARDS"}, (degrees, each.kind, codes)
+            assert not made.notes
 
 
 def test_a_curve_of_2000_lines_becomes_few_arcs() -> None:
