@@ -17,11 +17,14 @@ from core.output.passes import Job, heights, levels
 from core.pipeline.derived import DerivedBlock
 from core.pipeline.jobs import job
 from core.program.model import Program
+from core.progress import Progress, silent
 from core.verify.other_contours import ContourCut, Sweep, Wall, cuts_into_other_contours
 from core.verify.report import Names
 
 
-def with_block_cuts(blocks: Sequence[DerivedBlock], program: Program) -> tuple[DerivedBlock, ...]:
+def with_block_cuts(
+    blocks: Sequence[DerivedBlock], program: Program, progress: Progress = silent
+) -> tuple[DerivedBlock, ...]:
     """Add to each block every other block's contour that its path cuts into, with a warning.
 
     Only blocks that can be posted are compared.
@@ -32,7 +35,7 @@ def with_block_cuts(blocks: Sequence[DerivedBlock], program: Program) -> tuple[D
         return tuple(blocks)
     sweeps = {sweep: rows for block, paths, work in ready for sweep, rows in _sweeps(block, paths, work)}
     cuts = defaultdict[int, list[ContourCut]](list)
-    for cut in _without_pairs(cuts_into_other_contours(walls, list(sweeps))):
+    for cut in _without_pairs(cuts_into_other_contours(walls, list(sweeps), progress)):
         cuts[cut.sweep.number].append(cut)
     return tuple(
         replace(

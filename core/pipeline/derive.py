@@ -43,6 +43,8 @@ from core.verify.verdict import Verdict
 
 SOLVED_SHARE = 0.4
 """Share of the work on a block that is done when its fields are solved."""
+BLOCKS_SHARE = 0.9
+"""Share of the work on a program that is done when its blocks are derived; then they are compared."""
 JUDGED_SHARE = 0.9
 """Share of the work on a block that is done when its paths are judged."""
 
@@ -50,8 +52,9 @@ JUDGED_SHARE = 0.9
 def derive(program: Program, progress: Progress = silent) -> Derived:
     """Derive every block of a program, and what they cut of one another; `progress` may raise Stopped."""
     count = len(program.blocks)
-    blocks = [derive_block(program, at + 1, part(progress, at / count, (at + 1) / count)) for at in range(count)]
-    return Derived(program, with_block_cuts(blocks, program))
+    each = part(progress, 0.0, BLOCKS_SHARE)
+    blocks = [derive_block(program, at + 1, part(each, at / count, (at + 1) / count)) for at in range(count)]
+    return Derived(program, with_block_cuts(blocks, program, part(progress, BLOCKS_SHARE, 1.0)))
 
 
 def derive_block(program: Program, number: int, progress: Progress = silent) -> DerivedBlock:

@@ -5,8 +5,9 @@ from __future__ import annotations
 import pytest
 
 from core.finding import Severity
-from core.pipeline.derive import derive
+from core.pipeline.derive import BLOCKS_SHARE, derive
 from core.program.model import Block, CutterComp, Number, ProgramParameters
+from core.progress import Stopped
 from tests.core.pipeline.parts import Points, block, program
 
 POCKET = ((1, 0), (4, 0), (4, 3), (0, 3), (0, 0), (1, 0))
@@ -116,6 +117,20 @@ def test_a_pocket_that_runs_on_past_the_edge_is_named_once() -> None:
     profile, pocket = island(0, 0, 4, 3), block(((5, 1.5), *SLOT, (5, 1.5)), CutterComp.LEFT)
     assert [number for number, *_ in cuts(profile, pocket)] == [2]
     assert [number for number, *_ in cuts(pocket, profile)] == [2]
+
+
+def test_the_comparison_of_blocks_can_be_stopped() -> None:
+    shares: list[float] = []
+    derive(program(*(island(x, 0, x + 0.5, 0.5) for x in range(4))), progress=shares.append)
+    assert shares == sorted(shares)
+    assert len([share for share in shares if share > BLOCKS_SHARE]) >= 3
+    with pytest.raises(Stopped):
+        derive(program(block(POCKET, CutterComp.LEFT), island(0.4, 1, 2, 2)), progress=stop_after_blocks)
+
+
+def stop_after_blocks(share: float) -> None:
+    if share > BLOCKS_SHARE:
+        raise Stopped
 
 
 def test_a_block_that_cannot_be_posted_is_not_compared() -> None:
