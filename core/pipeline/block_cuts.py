@@ -13,7 +13,7 @@ from core.advice.path_findings import by_severity, move_names
 from core.controls.judging.repeated_passes import path_key
 from core.finding import Finding, Severity
 from core.geometry.path import Floats
-from core.output.passes import Job, heights, levels
+from core.output.passes import Job, heights
 from core.pipeline.derived import DerivedBlock
 from core.pipeline.jobs import job
 from core.program.model import Program
@@ -53,8 +53,8 @@ def _walls(block: DerivedBlock, paths: BlockPaths, work: Job) -> Iterator[Wall]:
     """Yield the contour of a block; with CUTTER COMP. ON it is no wall."""
     if block.side is None:
         return
-    floors = [height for floor in work.floors for height in (floor.z_start, floor.z_end)]
-    top = max(levels(work.z_start, work.z_bottom, work.peck_depth)[0], *floors)
+    # a cut that does not come down to the floor may be a step or a groove
+    top = max((height for floor in work.floors for height in (floor.z_start, floor.z_end)), default=work.z_bottom)
     yield Wall(paths.surface, block.side, top, path_key(paths.surface), number=block.number)
 
 

@@ -58,12 +58,11 @@ def test_a_lead_in_that_cuts_an_island() -> None:
     assert found[0][1].startswith("The blend-in arc ")
 
 
-def test_only_what_is_cut_as_deep_counts() -> None:
-    """The island is cut 0.1 deep: the pocket, at 0.25, cuts into it; its own path stays above the pocket's one pass."""
-    pocket, shallow = block(POCKET, CutterComp.LEFT), island(0.4, 1, 2, 2, z_bottom=Number(-0.1))
-    assert [number for number, *_ in cuts(pocket, shallow)] == [1]
-    pecked = block(POCKET, CutterComp.LEFT, peck_depth=Number(0.1))
-    assert [number for number, *_ in cuts(pecked, shallow)] == [1, 2]
+@pytest.mark.parametrize("peck", [0.0, 0.1])
+def test_only_what_comes_down_to_the_floor_counts(peck: float) -> None:
+    """The island is cut 0.1 deep: the pocket, at 0.25, cuts into it; its own path is a step in the pocket's wall."""
+    pocket = block(POCKET, CutterComp.LEFT, peck_depth=Number(peck))
+    assert [number for number, *_ in cuts(pocket, island(0.4, 1, 2, 2, z_bottom=Number(-0.1)))] == [1]
 
 
 @pytest.mark.parametrize("finish", [Number(1), Number(2)])
