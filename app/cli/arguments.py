@@ -30,7 +30,11 @@ def screen_parser() -> argparse.ArgumentParser:
         formatter_class=argparse.RawDescriptionHelpFormatter,
     )
     parser.add_argument(
-        "file", nargs="?", type=Path, metavar="FILE", help="a program (TOML), an NC program to prove, a drawing (DXF)"
+        "file",
+        nargs="?",
+        type=Path,
+        metavar="FILE",
+        help="a program (TOML), an NC program to prove, a drawing (DXF), or a folder",
     )
     names = sorted(path.stem for path in examples().glob("*.toml"))
     parser.add_argument("--example", nargs="?", const="pocket", choices=names, help="open an example part")

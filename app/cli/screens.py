@@ -13,7 +13,7 @@ from app.cli.shell import NOTHING_ASKED, STATUS_UNUSABLE, TerminalOptions, say
 from app.documents.document import ContourDocument
 from app.documents.document_service import DocumentService, Notice, Opened, Trouble
 from app.documents.nc_text import NC_SUFFIXES
-from app.documents.paths import is_drawing, program_named
+from app.documents.paths import is_drawing, is_folder, program_named
 from app.documents.programs import empty_program
 from app.documents.settings import SettingsFile, load_settings, settings_file
 from app.documents.time_limits import EXIT_SECONDS
@@ -31,7 +31,7 @@ def run(
     check_request: CheckRequest | None = None,
     options: TerminalOptions = NOTHING_ASKED,
 ) -> int:
-    """Show the screens on a program, an NC file, a drawing, an example or HOME; return the exit status.
+    """Show the screens on a program, an NC file, a drawing, an example or a folder; return the exit status.
 
     `check_request` holds the control, the tools and the unit of an NC file.
     """
@@ -40,6 +40,13 @@ def run(
     if reason := "" if in_browser() else driver.refusal(os.environ):
         say(reason)
         return STATUS_UNUSABLE
+    if path is not None and check_request is None and is_folder(path):
+        try:
+            os.chdir(path)
+        except OSError as error:
+            say(f"{path}: {error.strerror}.")
+            return STATUS_UNUSABLE
+        path = None
     drawing = path if path is not None and check_request is None and is_drawing(path) else None
     service = DocumentService()
     try:

@@ -33,6 +33,16 @@ def on_example(folder: Path, name: str = "overrun-square", more: Mapping[str, st
         yield terminal
 
 
+def test_a_folder_shows_its_files(tmp_path: Path) -> None:
+    folder = tmp_path / "jobs"
+    folder.mkdir()
+    shutil.copy(example("notch"), folder / "bracket.toml")
+    environment = {"XDG_STATE_HOME": str(tmp_path), "XDG_CONFIG_HOME": str(tmp_path), "PYTHONPATH": str(ROOT)}
+    with running(cutcomp("jobs"), environment=environment, cwd=str(tmp_path)) as terminal:
+        terminal.until("bracket", longest=30.0)
+        assert f" {folder} " in terminal.text
+
+
 def function_keys() -> dict[str, tuple[bytes, int]]:
     """Sequences of F4 to F8 in xterm, the Linux console, PuTTY's VT100+ mode, and as Esc with a digit."""
     xterm = {4: b"OS", 5: b"[15~", 6: b"[17~", 7: b"[18~", 8: b"[19~"}
