@@ -46,16 +46,59 @@ def contours_of(path: Path) -> tuple[RowRange, ...]:
     whole = (0, len(path))
     if not len(path):
         return (whole,)
+    if passes := _passes_on_ways(path, whole):
+        return passes
     point_ids = _point_ids(path)
     sums = _sums(path)
     longest = _longest(sums, point_ids)
     if longest is None:
         return (whole,)
-    passes = _passes_between_leads(path, longest) or (_between_leads(path, sums, point_ids, longest),)
+    passes = _passes_on_ways(path, longest) or (_between_leads(path, sums, point_ids, longest),)
     first, after = passes[0][0], end_of_overlap(path, (passes[0][0], passes[-1][1]))
     contours = (*_within(sums, point_ids, (0, first)), *passes, *_within(sums, point_ids, (after, len(path))))
     contours = tuple(rows for rows in contours if is_closed(path, rows) or not _joins_by_arcs(path, rows))
     return contours if len({path_key(path.part(*rows)) for rows in contours}) <= MAX_CONTOURS else (whole,)
+
+
+def _passes_on_ways(whole: Path, rows: RowRange) -> tuple[RowRange, ...]:
+    """Return the closed passes in rows that have nothing else but short ways to, between and from them.
+
+    A pass ends where its first point comes again.  A way begins where the path no longer runs along the pass.  It joins
+    by arcs, or has at most MAX_LEAD_MOVES moves, where lines that continue each other are one, and at most
+    MAX_LEAD_SHARE of the shortest pass's length.
+    """
+    path = whole.part(*rows)
+    sums, passes, around, last_seen = _sums(path), list[RowRange](), (0, 0), dict[int, int]()
+    for index, point_id in enumerate(_point_ids(path)):
+        begin = last_seen.get(point_id, index)
+        last_seen[point_id] = index
+        if not _encloses(sums, (begin, index)):
+            continue
+        last_seen = {point_id: index}
+        if around[1] == begin and _links_passes(path, around, (begin, index)):
+            continue
+        around = (begin, index)
+        if passes and passes[-1][1] == begin:
+            passes[-1] = (passes[-1][0], index)
+        else:
+            passes.append(around)
+    starts = [*(begin for begin, _ in passes), len(path)]
+    after = [0, *(min(end_of_overlap(path, each), start) for each, start in zip(passes, starts[1:], strict=True))]
+    limit = MAX_LEAD_SHARE * min((sums[1, end] - sums[1, begin] for begin, end in passes), default=0.0)
+    if len(passes) < 2 or not all(_is_way(path, each, limit) for each in zip(after, starts, strict=True)):
+        return ()
+    if len({path_key(path.part(*each)) for each in passes}) > MAX_CONTOURS:
+        return ()
+    return tuple((rows[0] + begin, rows[0] + end) for begin, end in passes)
+
+
+def _is_way(path: Path, rows: RowRange, limit: float) -> bool:
+    """True if these rows are at most MAX_LEAD_MOVES moves no longer than a limit, or join two contours by arcs."""
+    part = path.part(*rows)
+    lines = part.turns == 0
+    straight = (part.end_directions[:-1] * part.start_directions[1:]).sum(axis=1) > cos(MAX_RETRACE_ANGLE)
+    moves = len(part) - int((straight & lines[:-1] & lines[1:]).sum())
+    return (moves <= MAX_LEAD_MOVES and part.lengths.sum() <= limit) or _joins_by_arcs(path, rows)
 
 
 def _joins_by_arcs(path: Path, rows: RowRange) -> bool:
@@ -69,18 +112,18 @@ def _joins_by_arcs(path: Path, rows: RowRange) -> bool:
     return _blends(path, range(first - 1, first + 1)) and _blends(path, range(last, last - 2, -1))
 
 
-def _links_passes(path: Path, begin: int, rows: RowRange) -> bool:
-    """True if arcs of at most half a turn lead out and back in between two passes longer than these rows.
+def _links_passes(path: Path, around: RowRange, rows: RowRange) -> bool:
+    """True if arcs of at most half a turn lead out of a pass and back to its start, on a shorter way than the pass.
 
-    Before the arc out, a few of the rows may run along the first pass again, which begins at row `begin`.
+    Before the arc out, a few of the rows may run along the pass again.
     """
     last = rows[1]
-    first = rows[0] + _running_along(path, rows[0], begin, min(last - rows[0], MAX_LEAD_MOVES))
+    first = rows[0] + _running_along(path, rows[0], around[0], min(last - rows[0], MAX_LEAD_MOVES))
     if first == last or not _joins_by_arcs(path, (first, last)):
         return False
     if np.abs(path.sweeps[[first, last - 1]]).max() > pi + MAX_TANGENT_ANGLE:
         return False
-    return bool(path.lengths[first:last].sum() < min(path.lengths[:first].sum(), path.lengths[last:].sum()))
+    return bool(path.lengths[first:last].sum() < path.lengths[slice(*around)].sum())
 
 
 def closed_passes(path: Path, contour: RowRange) -> tuple[RowRange, ...]:
@@ -95,15 +138,6 @@ def closed_passes(path: Path, contour: RowRange) -> tuple[RowRange, ...]:
     if len(runs) < 2 or passes[-1] != last:
         return (contour,)
     return tuple(_between_leads(path, sums, point_ids, run) for run in runs)
-
-
-def _passes_between_leads(path: Path, contour: RowRange) -> tuple[RowRange, ...]:
-    """Return the passes of a contour that begins at a point to which leads return after each pass, if it does.
-
-    The leads may also be a run of their own from that point: an arc out of a pass, and an arc into the next one.
-    """
-    passes = tuple(rows for rows in closed_passes(path, contour) if not _links_passes(path, contour[0], rows))
-    return passes if len(passes) > 1 and all(end < begin for (_, end), (begin, _) in pairwise(passes)) else ()
 
 
 def between_lead_arcs(path: Path, contour: RowRange, stretch: Stretch, *, cut_short: bool) -> RowRange:
@@ -148,6 +182,8 @@ def split_where_it_closes(path: Path) -> SplitContours:
     The contour begins after at most MAX_LEAD_MOVES moves, or ends before as many.  Programs cut it a little past the
     point where it closes, cut all of it once more, or start beyond its corner.
     """
+    if len(path) and (passes := _passes_on_ways(path, (0, len(path)))):
+        return SplitContours(path, passes)
     split = _split_at_start(path)
     if split is None and contours_of(path) == ((0, len(path)),):
         back = _split_at_start(path.reversed())

@@ -160,6 +160,10 @@ GOOD = {
         "-30. Y20.",
         f"{ARC_IN}X0.\n{LINK.replace('Y20', 'Y24', 1).replace('Y32', 'Y36')}{LAP}Y24.\nG3 X-10. Y34. R10.\nG1 {OUT}",
     ),
+    "in along the wall, and arcs between two passes": (
+        "-30. Y-5.",
+        f"G41 D1 X0. Y10.\nY20.\n{LAP}{LINK}{LAP}Y20.\nG3 X-10. Y30. R10.\nG1 {OUT}",
+    ),
     "arcs out and in between two passes": ("-30. Y20.", f"{ARC_IN}X0.\n{LINK}{LAP}Y20.\nG3 X-10. Y30. R10.\nG1 {OUT}"),
 }
 """The start and the blocks of programs that do not gouge an 80 by 50 plate."""
@@ -336,6 +340,27 @@ def test_a_full_circle_next_to_a_longer_contour_is_a_contour() -> None:
     centers, turns = points[:-1].copy(), np.zeros(6, np.int8)
     turns[5], centers[5] = 1, (15, 0)
     assert contours_of(Path.of(points, centers, turns, np.arange(1.0, 7.0))) == ((0, 4), (5, 6))
+
+
+def test_walls_between_full_circles_are_walls() -> None:
+    """A square with a relief at each of its corners; the walls are longer than the circles."""
+    corners = ((0.0, 0.0), (9.0, 0.0), (9.0, 9.0), (0.0, 9.0))
+    pieces = list[Line | Arc]()
+    for at, to, (x, y) in zip(corners, (*corners[1:], corners[0]), ((1, 1), (-1, 1), (-1, -1), (1, -1)), strict=True):
+        pieces += [Arc(at, at, (at[0] + x, at[1] + y), Turn.CCW), Line(at, to)]
+    assert contours_of(Path.from_pieces(pieces)) == ((0, 8),)
+
+
+def test_arcs_between_two_passes_are_leads_before_an_open_contour() -> None:
+    corners = ((0.0, 2.0), (0.0, 5.0), (8.0, 5.0), (8.0, 0.0), (0.0, 0.0), (0.0, 2.0))
+    around = [Line(start, end) for start, end in pairwise(corners)]
+    link: list[Line | Arc] = [
+        Arc((0.0, 2.0), (-1.0, 3.0), (-1.0, 2.0), Turn.CCW),
+        Line((-1.0, 3.0), (-1.0, 1.0)),
+        Arc((-1.0, 1.0), (0.0, 2.0), (-1.0, 2.0), Turn.CCW),
+    ]
+    walls = [Line(start, end) for start, end in pairwise(((0.0, 2.0), (-3.0, 2.0), (-3.0, 9.0), (0.0, 9.0)))]
+    assert contours_of(Path.from_pieces([*around, *link, *around, *walls])) == ((0, 5), (8, 13), (13, 16))
 
 
 def test_no_moves_count_as_leads_among_very_many_contours() -> None:

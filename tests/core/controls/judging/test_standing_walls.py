@@ -105,6 +105,36 @@ def test_a_gouge_of_the_last_pass_is_reported() -> None:
     assert "GOUGE" in errors(list(judged_findings(judge_run(run))))
 
 
+RADIAL = {
+    "bore": ("X8. Y0.", "G1 X20.\nG3 I-20.\nG1 X8.\nX11.\nX23.\nG3 I-23.\nG1 X11.\n"),
+    "boss": ("X-45. Y0.", "G1 X-30.\nG2 I30.\nG1 X-45.\nX-42.\nX-27.\nG2 I27.\nG1 X-42.\n"),
+    "counterbore": ("X8. Y0.", "G1 X20.\nG3 I-20.\nG1 X8.\nZ-2.\nX11.\nX23.\nG3 I-23.\nG1 X11.\n"),
+}
+"""Where the tool starts, and two passes that lines out and in on one radius join."""
+
+
+def radial(shape: str, *, again: bool, old: str = "", new: str = "") -> list[Finding]:
+    """What is said of the two passes, or of both again deeper, with the text `old` replaced."""
+    start, passes = RADIAL[shape]
+    cut = (passes + f"Z-6.\n{passes}" * again).replace(old, new)
+    text = f"G21 G17 G40 G90 F400\nT1 M6\nG0 {start}\nG1 Z-3.\nG41 D1 {cut}G40 {start}\nM30\n"
+    return list(judged_findings(judge_run(ran(text, "fanuc:a", t1=10.0))))
+
+
+@pytest.mark.parametrize("again", [False, True])
+@pytest.mark.parametrize("shape", RADIAL)
+def test_lines_out_and_in_on_one_radius_are_no_walls(shape: str, again: bool) -> None:
+    findings = radial(shape, again=again)
+    assert not errors(findings), findings
+    assert [finding for finding in findings if finding.code == "ROUGHING"]
+
+
+@pytest.mark.parametrize("again", [False, True])
+@pytest.mark.parametrize(("shape", "out", "through"), [("bore", "X8.", "X32."), ("boss", "X-45.", "X-20.")])
+def test_a_line_out_that_goes_through_the_wall_gouges_it(shape: str, out: str, through: str, again: bool) -> None:
+    assert "GOUGE" in errors(radial(shape, again=again, old=out, new=through))
+
+
 def test_a_move_of_a_micrometer_is_no_pass() -> None:
     body = "G21 G17 G40 G90 F400\nT1 M6\nG0 X-30. Y-30.\nG1 Z-3.\nG41 D1 X0. Y0.\nX.001\nG40 X-30. Y30.\nM30\n"
     findings = list(judged_findings(judge_run(ran(body, "fanuc:a", t1=0.5))))
