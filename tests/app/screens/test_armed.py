@@ -49,7 +49,8 @@ async def test_a_digit_after_the_waiting_time_is_typed(user: Operator, monkeypat
 
 async def test_esc_after_an_unreadable_text_restores_the_old_value(user: Operator) -> None:
     before = user.session.block.x_start
-    user.screen.focus_field("x_start")  # type: ignore[attr-defined]
+    assert isinstance(user.screen, form_screen.FormScreen)
+    user.screen.focus_field("x_start")
     await user.press("1", "a", "5", "enter")
     assert user.tag("x_start") == "ERR"
     await user.press("escape")
@@ -61,7 +62,8 @@ async def test_esc_after_an_unreadable_text_restores_the_old_value(user: Operato
 
 
 async def test_esc_on_an_older_unreadable_text_keeps_the_later_edits(user: Operator) -> None:
-    user.screen.focus_field("x_start")  # type: ignore[attr-defined]
+    assert isinstance(user.screen, form_screen.FormScreen)
+    user.screen.focus_field("x_start")
     await user.press("1", "a", "5", "enter", "tab", "3", "tab", "shift+tab", "shift+tab", "escape")
     assert user.prompt == "1 to 8 press the softkey now, as F1 to F8 do."
     assert user.session.block.y_start == Number(3.0)
