@@ -46,9 +46,6 @@ MAX_WALL_LEFT: Final = 0.05
 MAX_ISLAND_SHARE: Final = 0.01
 """An island is destroyed if no more than this share of its inside stays."""
 
-MAX_MEASURED_PATHS: Final = 10
-"""Most paths of one number into one contour whose cuts are measured."""
-
 
 @dataclass(frozen=True, eq=False, slots=True)
 class Wall:
@@ -179,7 +176,7 @@ def _cuts(wall: Wall, sweeps: Sequence[Sweep], walls: Mapping[Hashable, Sequence
         return
     for group in cutting.values():
         cuts = list[ContourCut]()
-        for sweep in group[:MAX_MEASURED_PATHS]:
+        for sweep in group:
             crossed = [each for shape in sweep.shapes for each in walls[shape]] if is_open else ()
             first, last = _ends(chords, crossed)
             places = ((chords.project(Point(cut.gouge.surface_at)), cut) for cut in _measured(wall, sweep))

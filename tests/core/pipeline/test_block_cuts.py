@@ -6,7 +6,7 @@ import pytest
 
 from core.finding import Severity
 from core.pipeline.derive import BLOCKS_SHARE, derive
-from core.program.model import Block, CutterComp, Number, ProgramParameters
+from core.program.model import Block, CutterComp, Number, PathChoice, ProgramParameters
 from core.progress import Stopped
 from tests.core.pipeline.parts import Points, block, program
 
@@ -103,6 +103,20 @@ def test_each_block_that_cuts_into_one_contour_is_named() -> None:
     profile, slots = island(0, 0, 4, 3), (block(SLOT, CutterComp.LEFT), block(left, CutterComp.LEFT))
     assert [number for number, *_ in cuts(profile, *slots)] == [2, 3]
     assert [number for number, *_ in cuts(profile, *slots, slots[0])] == [2, 3, 4]
+
+
+def test_the_deepest_of_many_loops_is_told() -> None:
+    """Necks of 0.1 part 12 chambers, a loop each; the highest reaches up to Y 1.055, 0.04 beyond the contour."""
+    tops = (1.039, 1.055, 1.018, 1.042, 1.033, 1.036, 1.027, 1.048, 1.03, 1.021, 1.045, 1.024)
+    chambers = [
+        (1.2 * number + x, y)
+        for number, top in reversed(list(enumerate(tops)))
+        for x, y in ((1, 0.1), (1, top), (0, top), (0, 0.1))
+    ]
+    pocket = block(((-0.2, 0), (14.2, 0), *chambers, (-0.2, 0.1), (-0.2, 0)), CutterComp.LEFT)
+    parameters = ProgramParameters(blend_offset=Number(0), blend_overlap=Number(0), path=PathChoice.BEST)
+    found = cuts(pocket, island(-1, 1.015, 15, 3), parameters=parameters)
+    assert [depth for number, _, depth in found if number == 1] == [0.04]
 
 
 def test_two_sides_that_run_on_past_their_corner() -> None:
