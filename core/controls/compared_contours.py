@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 
 from core.controls.control_run import ControlRun, Stretch
 from core.controls.judging.contours_and_leads import contour_of
-from core.controls.judging.judged_runs import programmed_surface
+from core.controls.judging.stretch_paths import programmed_surface
 from core.geometry.distance import distance
 from core.geometry.path import Path
 from core.geometry.piece_arrays import at, piece_arrays

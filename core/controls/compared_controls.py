@@ -12,7 +12,8 @@ from core.controls.contour_translation import run_by_contour
 from core.controls.control_run import ControlRun, Stretch
 from core.controls.control_tools import ToolTable
 from core.controls.iso.flow import ProgramLibrary, no_library
-from core.controls.judging.judged_runs import Judged, deepest_gouge, judge_run
+from core.controls.judging.judged_contour import JudgedContour
+from core.controls.judging.judged_runs import deepest_gouge, judge_run
 from core.controls.moves import Moves
 from core.controls.registry import UnknownControl, compared, reads, run, run_with_tiny_tool
 from core.controls.write.read_back import MIN_TOLERANCE
@@ -38,7 +39,7 @@ class Compared:
 
     control: str
     run: ControlRun
-    results: tuple[Judged, ...]
+    results: tuple[JudgedContour, ...]
     gouge: float
     parting: Parting | None
     contour_of: str = ""

@@ -17,8 +17,9 @@ from core.controls.control_tools import ToolId, ToolTable
 from core.controls.iso.flow import ProgramLibrary, no_library
 from core.controls.iso.modal_state import RADIUS_ZERO
 from core.controls.judging import shop_rules
+from core.controls.judging.judged_contour import JudgedContour
 from core.controls.judging.judged_findings import judged_findings
-from core.controls.judging.judged_runs import Judged, deepest_gouge, first_unjudged, judge_run
+from core.controls.judging.judged_runs import deepest_gouge, first_unjudged, judge_run
 from core.controls.moves import Move, Moves
 from core.controls.registry import UnknownControl, reads, run
 from core.finding import Finding, Severity
@@ -224,7 +225,7 @@ def _tool_key(tool: ToolId) -> str:
     return f"T gives tool {tool} its diameter."
 
 
-def answered(done: ControlRun, results: tuple[Judged, ...], text: bytes) -> Answer:
+def answered(done: ControlRun, results: tuple[JudgedContour, ...], text: bytes) -> Answer:
     """Return the answer of a control that has run a text, with the key that gives a tool its size if it needs one."""
     return _with_remedy(_answer(done, results, _foreign(done.control, text), shop=False), _tool_key)
 
@@ -271,7 +272,7 @@ def _foreign(control: str, text: bytes) -> tuple[Finding, ...]:
     return (_language(Severity.WARNING, message),)
 
 
-def _answer(done: ControlRun, results: tuple[Judged, ...], before: tuple[Finding, ...], *, shop: bool) -> Answer:
+def _answer(done: ControlRun, results: tuple[JudgedContour, ...], before: tuple[Finding, ...], *, shop: bool) -> Answer:
     merged = (*before, *done.findings, *judged_findings(results), *(shop_rules.check_shop_rules(done) if shop else ()))
     errors = [finding for finding in done.findings if finding.severity is Severity.ERROR]
     stop = errors[-1] if errors and done.stopped_at is not None else None
@@ -320,7 +321,7 @@ def _by_line(findings: tuple[Finding, ...]) -> tuple[Finding, ...]:
 
 
 def _outcome(
-    done: ControlRun, results: tuple[Judged, ...], stop: Finding | None, findings: tuple[Finding, ...]
+    done: ControlRun, results: tuple[JudgedContour, ...], stop: Finding | None, findings: tuple[Finding, ...]
 ) -> tuple[State, str]:  # fmt: skip
     """Return the state of a run and the words for it, the worst first: an alarm before a gouge, a gouge before what
     cannot be judged."""

@@ -11,7 +11,8 @@ from numpy.typing import NDArray
 from core.controls.control_run import ControlRun, Stretch
 from core.controls.control_tools import ToolTable
 from core.controls.iso.flow import ProgramLibrary, no_library
-from core.controls.judging.judged_runs import Judged, judge_run
+from core.controls.judging.judged_contour import JudgedContour
+from core.controls.judging.judged_runs import judge_run
 from core.controls.moves import Moves, Plane
 from core.controls.registry import UnknownControl, run
 from core.draw.scene import Circle, Layer, Mark, Scene, Style, Symbol, contour_scene, joined_scenes
@@ -27,7 +28,7 @@ class Proof:
     """A run and the verdicts on its compensated stretches; no verdicts until they are worked out."""
 
     run: ControlRun
-    results: tuple[Judged, ...]
+    results: tuple[JudgedContour, ...]
 
     @property
     def plane(self) -> Plane:
@@ -71,7 +72,7 @@ def _parts(moves: Moves, plane: Plane, chosen: NDArray[np.bool_]) -> Iterator[Pa
     return (run.path(plane) for run in moves.runs(chosen))
 
 
-def _stretch_scene(result: Judged) -> Scene:
+def _stretch_scene(result: JudgedContour) -> Scene:
     verdict, surface = result.verdict, result.surface
     return contour_scene(
         surface,

@@ -9,7 +9,7 @@ from typing import Final
 import numpy as np
 
 from core.controls.judging.contours_and_leads import MAX_LEAD_MOVES
-from core.controls.judging.judged_runs import Judged, ToleratedArc, first_line, line_of
+from core.controls.judging.judged_contour import JudgedContour, ToleratedArc, first_line, line_of
 from core.controls.judging.rapids_at_depth import rapid_walls
 from core.controls.moves import Plane
 from core.finding import Finding, Severity
@@ -29,7 +29,7 @@ CAM_ROUNDING: Final = 0.0127 + ROUNDING
 """Millimeters (0.0005 in) of tolerance that a CAM system's rounding explains; more may hide a gouge."""
 
 
-def judged_findings(results: tuple[Judged, ...]) -> tuple[Finding, ...]:
+def judged_findings(results: tuple[JudgedContour, ...]) -> tuple[Finding, ...]:
     """Return findings with lines: gouges, wrong sides and unjudged paths are errors, the rest warnings or notes."""
     gouged = {gouge.surface_number for result in results for gouge in result.verdict.gouges}
     uneven = _uneven_arcs(results)
@@ -40,8 +40,8 @@ def judged_findings(results: tuple[Judged, ...]) -> tuple[Finding, ...]:
             _with_axes(finding, result.stretch.plane)
             for result in results
             for finding in (
-                *_by_itself(result),
-                *_above(result),
+                *_side_changes(result),
+                *_passed_over(result),
                 *_uneven_arc(uneven.get(result)),
                 *_cuts(result),
                 *_open_contour(result, gouged),
@@ -64,9 +64,9 @@ def _with_axes(finding: Finding, plane: Plane) -> Finding:
     return replace(finding, text=finding.text.replace("X {x} Y {y}", f"{first} {{x}} {second} {{y}}"))
 
 
-def _unseen(results: tuple[Judged, ...]) -> tuple[Finding, ...]:
+def _unseen(results: tuple[JudgedContour, ...]) -> tuple[Finding, ...]:
     """Return one finding that counts the gouges too shallow for a digit, if any."""
-    count = sum(result.unseen_gouges for result in results)
+    count = sum(result.shallow_gouges for result in results)
     if not count:
         return ()
     gouges = "1 gouge is" if count == 1 else f"{count} gouges are"
@@ -74,16 +74,16 @@ def _unseen(results: tuple[Judged, ...]) -> tuple[Finding, ...]:
     return (Finding("DIGIT", Severity.INFO, text),)
 
 
-def _by_itself(result: Judged) -> Iterator[Finding]:
-    """Warn that a part is judged by itself."""
+def _side_changes(result: JudgedContour) -> Iterator[Finding]:
+    """Warn that a part is judged without the part on the other side before it."""
     text = "The side changes here. Cuts into the contour on the other side are not judged. Program G40 between them."
-    if result.by_itself:
+    if result.side_changes:
         yield Finding("SIDES", Severity.WARNING, text, line=first_line(result.surface))
 
 
-def _uncompensated(result: Judged) -> Iterator[Finding]:
+def _uncompensated(result: JudgedContour) -> Iterator[Finding]:
     """Warn of moves without compensation through a contour; no error, since its wall may be cut away by then."""
-    for cut in result.uncompensated:
+    for cut in result.uncompensated_cuts:
         code, move = ("RAPID", "rapid") if cut.rapid else ("FEED", "move without compensation")
         at, line = cut.gouge.surface_at, line_of(cut.gouge.path_number)
         text = (
@@ -93,9 +93,9 @@ def _uncompensated(result: Judged) -> Iterator[Finding]:
         yield Finding(code, Severity.WARNING, text, at=at, value=cut.gouge.depth, lengths=(cut.height,), line=line)
 
 
-def _cuts_of_others(result: Judged) -> Iterator[Finding]:
+def _cuts_of_others(result: JudgedContour) -> Iterator[Finding]:
     """Warn of cuts into contours of other stretches; no error, since a slot, say, may be meant to cut the wall."""
-    deepest = sorted(result.of_others, key=lambda cut: -cut.gouge.depth)
+    deepest = sorted(result.cuts_into_others, key=lambda cut: -cut.gouge.depth)
     for cut in deepest[:MAX_GOUGES]:
         into = (
             f"the contour of line {int(cut.gouge.surface_number)} at X {{x}} Y {{y}}. Check that this wall may be cut."
@@ -108,7 +108,7 @@ def _cuts_of_others(result: Judged) -> Iterator[Finding]:
         yield Finding("OTHER-CONTOUR", Severity.WARNING, text)
 
 
-def _rapid_walls(results: Sequence[Judged]) -> tuple[Finding, ...]:
+def _rapid_walls(results: Sequence[JudgedContour]) -> tuple[Finding, ...]:
     """Warn of rapids under compensation at the depth of the cut, once per line."""
     moves = {move.line: move for result in results for move in rapid_walls(result.stretch)}
     text = "This rapid under compensation runs at the depth of the cut, Z {0}. Write G1, or raise the tool before it."
@@ -118,9 +118,9 @@ def _rapid_walls(results: Sequence[Judged]) -> tuple[Finding, ...]:
     )
 
 
-def _above(result: Judged) -> Iterator[Finding]:
+def _passed_over(result: JudgedContour) -> Iterator[Finding]:
     """Warn that moves above the part are not judged, because no program says how high the part is."""
-    above = result.above
+    above = result.passed_over
     if above is None:
         return
     listed = ", ".join(map(str, above.lines[:MAX_LINES])) + (" ..." if len(above.lines) > MAX_LINES else "")
@@ -129,9 +129,9 @@ def _above(result: Judged) -> Iterator[Finding]:
     yield Finding("ABOVE", Severity.WARNING, text, lengths=(above.height,), line=above.lines[0])
 
 
-def _uneven_arcs(results: Sequence[Judged]) -> dict[Judged, ToleratedArc]:
+def _uneven_arcs(results: Sequence[JudgedContour]) -> dict[JudgedContour, ToleratedArc]:
     """Return the uneven arcs of judged parts that raise the tolerance; for each line the one that raises it most."""
-    uneven = [(result, result.uneven) for result in results if result.uneven and result.verdict.judged]
+    uneven = [(result, result.uneven_arc) for result in results if result.uneven_arc and result.verdict.judged]
     uneven.sort(key=lambda pair: pair[1].slack)
     return dict({arc.line: (result, arc) for result, arc in uneven if arc.slack > 0.0}.values())
 
@@ -145,7 +145,7 @@ def _uneven_arc(arc: ToleratedArc | None) -> list[Finding]:
     return [Finding("ARC_RADII", severity, text, value=arc.slack, lengths=(arc.first, arc.last), line=arc.line)]
 
 
-def _cuts(result: Judged) -> list[Finding]:
+def _cuts(result: JudgedContour) -> list[Finding]:
     verdict = result.verdict
     if not verdict.judged:
         return [_unjudged(result)]
@@ -160,7 +160,7 @@ def _cuts(result: Judged) -> list[Finding]:
     return listed
 
 
-def _unjudged(result: Judged) -> Finding:
+def _unjudged(result: JudgedContour) -> Finding:
     """Return the error that says why a path cannot be judged."""
     arc, line = result.verdict.uneven_arc, first_line(result.center)
     if arc is None:
@@ -188,7 +188,7 @@ def _gouge(gouge: Gouge, radius: float) -> Finding:
     )
 
 
-def _open_contour(result: Judged, gouged: set[float]) -> list[Finding]:
+def _open_contour(result: JudgedContour, gouged: set[float]) -> list[Finding]:
     """Warn that gouged lines may not be surface: nothing in a program says where a contour begins."""
     if not gouged & result.open_lines:
         return []
@@ -200,7 +200,7 @@ def _open_contour(result: Judged, gouged: set[float]) -> list[Finding]:
     return [Finding("WAY", Severity.WARNING, text, line=first)]
 
 
-def _cut_away(result: Judged) -> Iterator[Finding]:
+def _cut_away(result: JudgedContour) -> Iterator[Finding]:
     """Warn of walls that are not judged, or not above a height, because another pass cuts them away."""
     for wall in result.cut_away:
         lines, others = _lines_of(wall.numbers), _lines_of(wall.cut_away_by or wall.numbers)
@@ -218,19 +218,19 @@ def _lines_of(numbers: tuple[float, float]) -> str:
     return f"line {first}" if first == last else f"lines {first}-{last}"
 
 
-def _leads(result: Judged) -> Iterator[Finding]:
+def _leads(result: JudgedContour) -> Iterator[Finding]:
     """Report moves that are treated as leads, and the cuts into them."""
-    if not result.leads:
+    if not result.lead_lines:
         return
-    text = f"{len(result.leads)} moves before or after a contour are treated as lead moves, not as part of it."
+    text = f"{len(result.lead_lines)} moves before or after a contour are treated as lead moves, not as part of it."
     check = "They are long. Check that none of them is a wall."
-    if len(result.leads) == 1:
+    if len(result.lead_lines) == 1:
         text = "A move before or after a contour is treated as a lead move, not as part of it."
         check = "It is long. Check that it is no wall."
     severity = Severity.INFO
     if result.long_leads:
         severity, text = Severity.WARNING, f"{text} {check}"
-    yield Finding("LEADS", severity, text, line=result.leads[0])
+    yield Finding("LEADS", severity, text, line=result.lead_lines[0])
     deepest = {gouge.surface_number: gouge for gouge in reversed(result.lead_gouges)}
     for gouge in sorted(deepest.values(), key=lambda gouge: -gouge.depth):
         text = f"The cutter cuts {{value}} into line {int(gouge.surface_number)}. If this is not a lead, it is a gouge."
@@ -241,9 +241,9 @@ def _leads(result: Judged) -> Iterator[Finding]:
         yield Finding("LEAD-GOUGE", severity, text, at=at, value=gouge.depth, lengths=slack, line=line)
 
 
-def _corner_loops(result: Judged) -> Iterator[Finding]:
+def _corner_loops(result: JudgedContour) -> Iterator[Finding]:
     """Report that a contour crosses itself to go around an outside corner."""
-    for loop in result.loops:
+    for loop in result.corner_loops:
         lines = enumerated("line", loop.numbers)
         text = f"Loop around the corner X {{x}} Y {{y}}: what lies beyond it on {lines} is no wall."
         severity = Severity.INFO
@@ -252,7 +252,7 @@ def _corner_loops(result: Judged) -> Iterator[Finding]:
         yield Finding("CORNER-LOOP", severity, text, at=loop.at, line=line_of(loop.numbers[0]))
 
 
-def _contact(result: Judged) -> list[Finding]:
+def _contact(result: JudgedContour) -> list[Finding]:
     """Report moves between the leads that leave the surface by more than the radius, or run backwards along it.
 
     Some controls leave it at every corner, so several such places make one finding.
@@ -284,7 +284,7 @@ def _between_leads(away: AirCut, center: Path, lines: frozenset[float]) -> bool:
     return {away.first_number, away.last_number} <= lines and not ends & {away.start, away.end}
 
 
-def _uncut(result: Judged) -> list[Finding]:
+def _uncut(result: JudgedContour) -> list[Finding]:
     verdict = result.verdict
     if not verdict.judged or not verdict.uncut or result.cut_short:
         return []
@@ -298,7 +298,7 @@ def _uncut(result: Judged) -> list[Finding]:
     return [Finding("UNCUT", severity, text, at=at, value=worst.thickness, lengths=lengths, line=line)]
 
 
-def _crossing(result: Judged) -> list[Finding]:
+def _crossing(result: JudgedContour) -> list[Finding]:
     """Report that the contour's ends run past its corner, or that it crosses itself."""
     verdict, line = result.verdict, first_line(result.surface)
     if verdict.over_run is not None:

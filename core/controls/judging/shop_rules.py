@@ -12,7 +12,7 @@ from typing import Final
 import numpy as np
 
 from core.controls.control_run import ControlRun, Stretch
-from core.controls.judging.judged_runs import programmed_surface
+from core.controls.judging.stretch_paths import programmed_surface
 from core.controls.moves import Moves
 from core.finding import Finding, Severity
 from core.geometry.distance import distance

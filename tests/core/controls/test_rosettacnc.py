@@ -66,7 +66,7 @@ def test_the_square_is_clean_apart_from_its_leads(variant: str) -> None:
     (result,) = judge_run(sample("rosettacnc-square.ngc", f"rosettacnc:{variant}", t1=6))
     assert result.verdict.clean
     assert not result.verdict.uncut
-    assert (len(result.surface), result.leads) == (9, (15,))
+    assert (len(result.surface), result.lead_lines) == (9, (15,))
 
 
 def window(run: ControlRun, first: int, second: int) -> list[tuple[float, float]]:

@@ -105,7 +105,7 @@ BORE = (
 def test_half_turns_into_and_out_of_a_bore_at_one_point_are_leads(circle: str, control: str) -> None:
     (result,) = judge_run(ran(BORE.format(side="G41", circle=circle), control, t1=10.0))
     assert (result.verdict.clean, result.verdict.uncut_length) == (True, 0.0)
-    assert len(result.leads) == 2
+    assert len(result.lead_lines) == 2
 
 
 @pytest.mark.parametrize("control", ["fanuc:a", "haas:a", "linuxcnc"])
@@ -215,7 +215,7 @@ def test_a_circle_that_runs_five_degrees_past_its_start_does_not_gouge(kind: str
     run = ran(text.replace("X0 Y60.", "X0 Y0") if kind == "bore" else text, control, t1=10.0)
     assert run.stopped_at is None
     (result,) = judge_run(run)
-    assert (result.verdict.clean, result.verdict.uncut_length, len(result.leads)) == (True, 0.0, 3)
+    assert (result.verdict.clean, result.verdict.uncut_length, len(result.lead_lines)) == (True, 0.0, 3)
 
 
 OPEN = "G41 D1 G1 X-8. Y-6.\nG3 X0. Y2. J8.\nG1 Y30.\nG3 X-6. Y36. I-6.\nG1 X-40.\nG3 X-48. Y28. J-8.\nG1 G40 Y18."

@@ -9,8 +9,9 @@ import pytest
 from core.controls.control_run import ControlRun
 from core.controls.control_tools import CutterTool, ToolTable
 from core.controls.judging.corner_loops import without_corner_loops
+from core.controls.judging.judged_contour import JudgedContour
 from core.controls.judging.judged_findings import judged_findings
-from core.controls.judging.judged_runs import Judged, judge_run
+from core.controls.judging.judged_runs import judge_run
 from core.controls.registry import run
 from core.finding import Finding, Severity
 from core.geometry.path import Path
@@ -27,7 +28,7 @@ LOOPS = {
 """Around the corner X0 Y40 of a plate of 60 by 40 that is cut around with the tool on its left."""
 
 
-def judged(cut: str, control: str = "fanuc:a") -> tuple[tuple[Judged, ...], list[Finding]]:
+def judged(cut: str, control: str = "fanuc:a") -> tuple[tuple[JudgedContour, ...], list[Finding]]:
     """The verdicts on a cut with a tool of 10, and what is told of loops."""
     done = run(f"{HEAD}{cut}{FOOT}".encode(), control, ToolTable.of(CutterTool(1, 10.0)))
     assert isinstance(done, ControlRun)
@@ -103,7 +104,7 @@ def test_a_loop_may_lead_from_one_depth_to_the_next(control: str) -> None:
     (told,) = [finding for finding in judged_findings(results) if finding.code == "CORNER-LOOP"]
     assert told.at == pytest.approx((0.0, 0.0))
     # 80 of the loop against the 260 around the plate
-    assert (told.severity, result.loops[0].numbers) == (Severity.WARNING, (13.0, 14.0, 15.0, 10.0))
+    assert (told.severity, result.corner_loops[0].numbers) == (Severity.WARNING, (13.0, 14.0, 15.0, 10.0))
 
 
 @pytest.mark.parametrize(
