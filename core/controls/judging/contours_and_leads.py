@@ -46,25 +46,25 @@ def contours_of(path: Path) -> tuple[RowRange, ...]:
     whole = (0, len(path))
     if not len(path):
         return (whole,)
-    if passes := _passes_on_ways(path, whole):
+    if passes := _linked_passes(path, whole):
         return passes
     point_ids = _point_ids(path)
     sums = _sums(path)
     longest = _longest(sums, point_ids)
     if longest is None:
         return (whole,)
-    passes = _passes_on_ways(path, longest) or (_between_leads(path, sums, point_ids, longest),)
+    passes = _linked_passes(path, longest) or (_between_leads(path, sums, point_ids, longest),)
     first, after = passes[0][0], end_of_overlap(path, (passes[0][0], passes[-1][1]))
     contours = (*_within(sums, point_ids, (0, first)), *passes, *_within(sums, point_ids, (after, len(path))))
     contours = tuple(rows for rows in contours if is_closed(path, rows) or not _joins_by_arcs(path, rows))
     return contours if len({path_key(path.part(*rows)) for rows in contours}) <= MAX_CONTOURS else (whole,)
 
 
-def _passes_on_ways(whole: Path, rows: RowRange) -> tuple[RowRange, ...]:
-    """Return the closed passes in rows that have nothing else but short ways to, between and from them.
+def _linked_passes(whole: Path, rows: RowRange) -> tuple[RowRange, ...]:
+    """Return the closed passes in rows that have nothing else but short links to, between and from them.
 
-    A pass ends where its first point comes again.  A way begins where the path no longer runs along the pass.  It joins
-    by arcs, or has at most MAX_LEAD_MOVES moves, where lines that continue each other are one, and at most
+    A pass ends where its first point comes again.  A link begins where the path no longer runs along the pass.  It
+    joins by arcs, or has at most MAX_LEAD_MOVES moves, where lines that continue each other are one, and at most
     MAX_LEAD_SHARE of the shortest pass's length.
     """
     path = whole.part(*rows)
@@ -85,14 +85,14 @@ def _passes_on_ways(whole: Path, rows: RowRange) -> tuple[RowRange, ...]:
     starts = [*(begin for begin, _ in passes), len(path)]
     after = [0, *(min(end_of_overlap(path, each), start) for each, start in zip(passes, starts[1:], strict=True))]
     limit = MAX_LEAD_SHARE * min((sums[1, end] - sums[1, begin] for begin, end in passes), default=0.0)
-    if len(passes) < 2 or not all(_is_way(path, each, limit) for each in zip(after, starts, strict=True)):
+    if len(passes) < 2 or not all(_is_link(path, each, limit) for each in zip(after, starts, strict=True)):
         return ()
     if len({path_key(path.part(*each)) for each in passes}) > MAX_CONTOURS:
         return ()
     return tuple((rows[0] + begin, rows[0] + end) for begin, end in passes)
 
 
-def _is_way(path: Path, rows: RowRange, limit: float) -> bool:
+def _is_link(path: Path, rows: RowRange, limit: float) -> bool:
     """True if these rows are at most MAX_LEAD_MOVES moves no longer than a limit, or join two contours by arcs."""
     part = path.part(*rows)
     lines = part.turns == 0
@@ -113,7 +113,7 @@ def _joins_by_arcs(path: Path, rows: RowRange) -> bool:
 
 
 def _links_passes(path: Path, around: RowRange, rows: RowRange) -> bool:
-    """True if arcs of at most half a turn lead out of a pass and back to its start, on a shorter way than the pass.
+    """True if arcs of at most half a turn lead out of a pass and back to its start, on a link shorter than the pass.
 
     Before the arc out, a few of the rows may run along the pass again.
     """
@@ -182,7 +182,7 @@ def split_where_it_closes(path: Path) -> SplitContours:
     The contour begins after at most MAX_LEAD_MOVES moves, or ends before as many.  Programs cut it a little past the
     point where it closes, cut all of it once more, or start beyond its corner.
     """
-    if len(path) and (passes := _passes_on_ways(path, (0, len(path)))):
+    if len(path) and (passes := _linked_passes(path, (0, len(path)))):
         return SplitContours(path, passes)
     split = _split_at_start(path)
     if split is None and contours_of(path) == ((0, len(path)),):
@@ -245,30 +245,30 @@ def _split_at_overlap(path: Path) -> Path:
     if len(path) < 4:
         return path
     for is_last in (False, True):
-        row, ways = (len(path) - 1, path.end_directions[:-1]) if is_last else (0, path.start_directions[1:])
+        row, headings = (len(path) - 1, path.end_directions[:-1]) if is_last else (0, path.start_directions[1:])
         start, end = path.points[row], path.points[row + 1]
         length, along = float(path.lengths[row]), path.start_directions[row]
         arms = path.points[1:-1] - start
         reach, off = arms @ along, arms @ np.array((-along[1], along[0]))
         over = (reach > CLOSED) & (reach < length - CLOSED) & (np.abs(off) <= CLOSED)
-        corners = np.flatnonzero(over & (ways @ along > cos(MAX_TANGENT_ANGLE)))
+        corners = np.flatnonzero(over & (headings @ along > cos(MAX_TANGENT_ANGLE)))
         if not path.turns[row] and len(corners):
             place = start + (end - start) * reach[corners[0]] / length
             path = _split(path, np.array([row]), place[None])
     return path
 
 
-def _running_over(path: Path, point: Floats, way: Floats) -> tuple[Rows, Floats]:
+def _running_over(path: Path, point: Floats, heading: Floats) -> tuple[Rows, Floats]:
     """Return the rows (m,) of pieces that run over a point, and the places (m, 2) where they are nearest to it.
 
-    They run in direction `way`, with both ends away from the point.  A full circle does not: it closes by itself.
+    They run in direction `heading`, with both ends away from the point.  A full circle does not: it closes by itself.
     """
     with np.errstate(all="ignore"):
         pieces = piece_arrays(path)
         points = np.full(len(pieces), complex(*point))
         share = foot(pieces, points)
         near = distance(pieces, points) <= CLOSED
-        straight_on = (direction(pieces, share) * np.conj(complex(*way))).real > cos(MAX_TANGENT_ANGLE)
+        straight_on = (direction(pieces, share) * np.conj(complex(*heading))).real > cos(MAX_TANGENT_ANGLE)
     reach, ends_apart = share * pieces.length, (path.starts != path.ends).any(axis=1)[pieces.rows]
     over = near & straight_on & (reach > CLOSED) & (reach < pieces.length - CLOSED) & ends_apart
     rows, places = pieces.rows[over], coordinates(at(pieces, share)[over])
@@ -377,8 +377,8 @@ def _between_leads(path: Path, sums: Floats, point_ids: list[int], rows: RowRang
         largest = pi if _inside_of_circle(path, (begin - 1, end), (begin, end)) else pi / 2
         arcs = all(path.turns[row] and abs(path.sweeps[row]) <= largest + MAX_TANGENT_ANGLE for row in (begin - 1, end))
         tangent = _blends(path, range(begin, begin - 2, -1)) and _blends(path, range(end - 1, end + 1))
-        way_in, around, way_out = np.diff(sums[1, [rows[0], begin, end, rows[1]]]).tolist()
-        short = count == 1 or way_in + way_out < around
+        lead_in, around, lead_out = np.diff(sums[1, [rows[0], begin, end, rows[1]]]).tolist()
+        short = count == 1 or lead_in + lead_out < around
         return (begin, end) if arcs and tangent and short else rows
     return _between_arcs(path, sums, point_ids, rows) or rows
 
@@ -398,8 +398,8 @@ def _between_arcs(path: Path, sums: Floats, point_ids: list[int], rows: RowRange
             arcs = [begin - 1, out]
             quarters = path.turns[arcs].all() and np.abs(path.sweeps[arcs]).max() <= pi / 2 + MAX_TANGENT_ANGLE
             tangent = _blends(path, range(begin, begin - 2, -1)) and _blends(path, range(out - 1, out + 1))
-            way_in, around, _, way_out = np.diff(sums[1, [rows[0], begin, end, out, rows[1]]]).tolist()
-            if quarters and tangent and way_in + way_out < around:
+            lead_in, around, _, lead_out = np.diff(sums[1, [rows[0], begin, end, out, rows[1]]]).tolist()
+            if quarters and tangent and lead_in + lead_out < around:
                 return begin, end
     return None
 
@@ -450,7 +450,7 @@ def _sums(path: Path) -> Floats:
 
 
 def _encloses(sums: Floats, rows: RowRange) -> bool:
-    """True if a closed run is more than a way out and back; a line closes the gap that rounding leaves at its end."""
+    """True if a closed run is more than a move out and back; a line closes the gap that rounding leaves at its end."""
     (first_area, first_length, x0, y0), (last_area, last_length, x1, y1) = sums[:, rows].T.tolist()
     area = last_area - first_area + x1 * y0 - y1 * x0
     return bool(abs(area) > CLOSED * (last_length - first_length))

@@ -51,9 +51,9 @@ def center_path(run: ControlRun, stretch: Stretch) -> Path:
     """
     if stretch.wear:
         programmed = stretch.programmed.path(stretch.plane)
-        way_out = run.moves.part(stretch.last - 2, stretch.last)
-        leaves = not run.stops_within(stretch) and way_out.lines[-1] != stretch.programmed.lines[-1]
-        return without_repeats(joined([programmed, way_out.path(stretch.plane)]) if leaves else programmed)
+        move_off = run.moves.part(stretch.last - 2, stretch.last)
+        leaves = not run.stops_within(stretch) and move_off.lines[-1] != stretch.programmed.lines[-1]
+        return without_repeats(joined([programmed, move_off.path(stretch.plane)]) if leaves else programmed)
     return without_repeats(tool_path(run.moves.part(stretch.first, stretch.last), stretch))
 
 
