@@ -86,29 +86,46 @@ class CommentedSize:
 def commented_size(lines: Sequence[str], number: ToolId) -> CommentedSize | None:
     """Return a tool's diameter from the first comment that gives it; a proposal, as no control reads comments.
 
-    It recognizes `TOOL 1 END MILL DIAMETER 0.5000`, as cutcomp posts, and `T1 D=10.` of CAM posts.  It ignores
-    fractions, several tools or sizes in one comment, and sizes of a shank, a wear or an offset.
+    The comment names the tool, or stands behind its T word.  Recognized are `TOOL 1 END MILL DIAMETER 0.5000`, as
+    cutcomp posts, `T1 D=10.` and `TOOL - 1 DIA. - .5` of CAM posts, `T1 .5 DIA` and `T1 10MM ENDMILL`.  Comments with
+    several tools or sizes, or with sizes of a shank, a wear or an offset, are ignored.
     """
     for row, line in enumerate(lines, 1):
         for comment in _COMMENT.finditer(line):
-            size = _COMMENTED.search(comment[0])
-            if size is None or size[1].lstrip("0") != str(number) or _OTHER_SIZES.search(comment[0]):
-                continue
-            if len(_A_TOOL.findall(comment[0])) == len(_A_SIZE.findall(comment[0])) == 1 and float(size[2]) > 0.0:
-                return CommentedSize(row, f"{size[2]}{size[3] or ''}")
+            named = _TOOL.findall(comment[0]) or _TOOL.findall(line[: comment.start()])
+            size = _size_in(_TOOL.sub("", comment[0]))
+            if size and [name.lstrip("0") for name in named] == [str(number)]:
+                return CommentedSize(row, size)
     return None
 
 
+def _size_in(comment: str) -> str:
+    """Return the only diameter in a comment without tool numbers, with its unit if it has one; empty without one."""
+    if _OTHER_SIZES.search(comment):
+        return ""
+    for pattern in _SIZES:
+        sizes = [match for match in pattern.finditer(comment) if float(match[1].split("/")[0]) > 0.0]
+        if sizes:
+            return f"{sizes[0][1].removesuffix('.')}{sizes[0][2] or ''}" if len(sizes) == 1 else ""
+    return ""
+
+
 _COMMENT: Final = re.compile(r"\([^)]*\)?|;.*")
-_A_TOOL: Final = re.compile(r"\bT(?:OOL)?\s*\d", re.IGNORECASE)
-_A_SIZE: Final = re.compile(r"\b(?:DIA(?:METER|\.)?\b|D\s*[=:])", re.IGNORECASE)
+_TOOL: Final = re.compile(r"\bT(?:OOL)?\s*(?:[-#]\s*)?(\d{1,8})\b", re.IGNORECASE)
 _OTHER_SIZES: Final = re.compile(r"\b(?:SHANK|WEAR|OFFSET|OFS)\b", re.IGNORECASE)
-_COMMENTED: Final = re.compile(
-    r"\bT(?:OOL)?\s*(\d{1,8})\b[^()]*?\b(?:DIA(?:METER|\.)?\s*[=:]?|D\s*[=:])\s*"
-    r"(\d+\.\d+|\d+(?=\.?(?:[^\d.]|$))|\.\d+)\.?\s?(MM\b|IN\b)?(?!\s*[\d/,-])",
-    re.IGNORECASE,
+_NUMBER: Final = r"(?<![\d./,])(?<!\d[ -])(\d{1,3}/\d{1,3}|\d{0,8}\.\d{1,8}|\d{1,8}\.?)(?![\d/])"
+_UNIT: Final = r"\s?(MM\b|IN\b)?"
+_KIND: Final = r"(?:(?:FLAT|SQUARE|CARBIDE|HSS|ROUGH\w*|FINISH\w*|\d ?FL(?:UTE)?S?)\s+)*(?:END ?MILL|EM)\b"
+_SIZES: Final = tuple(
+    re.compile(pattern, re.IGNORECASE)
+    for pattern in (
+        rf"\b(?:DIA(?:METER\b|\b\.?)\s*(?:[=:-]\s*)?|D\s*[=:]\s*){_NUMBER}{_UNIT}(?!\s*[\d/,-]\d|\s*FL)",
+        rf"{_NUMBER}{_UNIT}\s*DIA(?:METER)?\b",
+        # a whole number without a unit may be what is left of a fraction
+        rf"(?=[\d/]{{0,8}}[./]|\d{{1,8}}\s?(?:MM|IN)\b){_NUMBER}{_UNIT}\s*{_KIND}",
+    )
 )
-"""A tool's number, its diameter and the unit; a D without an equal sign is an offset number."""
+"""A diameter and its unit; a D without an equal sign is an offset number."""
 
 
 def missing_tool(number: int | None) -> str:
