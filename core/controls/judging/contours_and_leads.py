@@ -43,21 +43,21 @@ def contours_of(path: Path) -> tuple[RowRange, ...]:
     Between two closed runs, an arc out of one and an arc into the other are not counted.  Pieces after the longest run
     that repeat its beginning belong to no contour.
     """
-    whole = (0, len(path))
+    all_rows = (0, len(path))
     if not len(path):
-        return (whole,)
-    if passes := _linked_passes(path, whole):
+        return (all_rows,)
+    if passes := _linked_passes(path, all_rows):
         return passes
     point_ids = _point_ids(path)
     sums = _sums(path)
     longest = _longest(sums, point_ids)
     if longest is None:
-        return (whole,)
+        return (all_rows,)
     passes = _linked_passes(path, longest) or (_between_leads(path, sums, point_ids, longest),)
     first, after = passes[0][0], end_of_overlap(path, (passes[0][0], passes[-1][1]))
     contours = (*_within(sums, point_ids, (0, first)), *passes, *_within(sums, point_ids, (after, len(path))))
     contours = tuple(rows for rows in contours if is_closed(path, rows) or not _joins_by_arcs(path, rows))
-    return contours if len({path_key(path.part(*rows)) for rows in contours}) <= MAX_CONTOURS else (whole,)
+    return contours if len({path_key(path.part(*rows)) for rows in contours}) <= MAX_CONTOURS else (all_rows,)
 
 
 def _linked_passes(whole: Path, rows: RowRange) -> tuple[RowRange, ...]:
@@ -197,15 +197,15 @@ def split_where_it_closes(path: Path) -> SplitContours:
 
 def _split_open_contours(path: Path, contours: tuple[RowRange, ...]) -> SplitContours:
     """Split the open contours among several in the same way, each by itself."""
-    parts, divided, done, added = list[Path](), list[RowRange](), 0, 0
+    parts, divided, next_row, added = list[Path](), list[RowRange](), 0, 0
     for first, last in contours:
         part = path.part(first, last)
         alone = len(contours) == 1 or is_closed(path, (first, last))
         split = SplitContours(part, ((0, len(part)),)) if alone else split_where_it_closes(part)
-        parts += [path.part(done, first), split.path]
+        parts += [path.part(next_row, first), split.path]
         divided += [(begin + first + added, end + first + added) for begin, end in split.contours]
-        done, added = last, added + len(split.path) - len(part)
-    return SplitContours(joined([*parts, path.part(done, len(path))]), tuple(divided))
+        next_row, added = last, added + len(split.path) - len(part)
+    return SplitContours(joined([*parts, path.part(next_row, len(path))]), tuple(divided))
 
 
 def _split_at_start(path: Path) -> tuple[Path, Path] | None:
@@ -249,11 +249,11 @@ def _split_at_overlap(path: Path) -> Path:
         start, end = path.points[row], path.points[row + 1]
         length, along = float(path.lengths[row]), path.start_directions[row]
         arms = path.points[1:-1] - start
-        reach, off = arms @ along, arms @ np.array((-along[1], along[0]))
-        over = (reach > CLOSED) & (reach < length - CLOSED) & (np.abs(off) <= CLOSED)
+        stations, offsets = arms @ along, arms @ np.array((-along[1], along[0]))
+        over = (stations > CLOSED) & (stations < length - CLOSED) & (np.abs(offsets) <= CLOSED)
         corners = np.flatnonzero(over & (headings @ along > cos(MAX_TANGENT_ANGLE)))
         if not path.turns[row] and len(corners):
-            place = start + (end - start) * reach[corners[0]] / length
+            place = start + (end - start) * stations[corners[0]] / length
             path = _split(path, np.array([row]), place[None])
     return path
 
@@ -320,11 +320,11 @@ def blend_leads(path: Path, contours: tuple[RowRange, ...]) -> frozenset[int]:
 
 def _blends(path: Path, rows: range) -> bool:
     """True if the moves run on tangent from the contour's row, the first one, out to an arc."""
-    for near, far in pairwise(rows):
-        before, after = min(near, far), max(near, far)
+    for row, next_row in pairwise(rows):
+        before, after = min(row, next_row), max(row, next_row)
         if float(path.end_directions[before] @ path.start_directions[after]) < cos(MAX_TANGENT_ANGLE):
             return False
-        if path.turns[far]:
+        if path.turns[next_row]:
             return True
     return False
 
@@ -411,10 +411,10 @@ def _leads_off(path: Path, begin: int, end: int) -> bool:
     any other line may be a wall that is run twice by mistake.
     """
     before, after = -path.end_directions[end - 1], path.start_directions[begin]
-    off = path.start_directions[end]
+    lead = path.start_directions[end]
     smooth = float(before @ after) < -cos(MAX_RETRACE_ANGLE)
-    straight_on = min(float(off @ before), float(off @ after)) < -cos(MAX_RETRACE_ANGLE)
-    return smooth or straight_on or max(float(off @ before), float(off @ after)) <= MAX_RETRACE_ANGLE
+    straight_on = min(float(lead @ before), float(lead @ after)) < -cos(MAX_RETRACE_ANGLE)
+    return smooth or straight_on or max(float(lead @ before), float(lead @ after)) <= MAX_RETRACE_ANGLE
 
 
 def _inside_of_circle(path: Path, arcs: tuple[int, int], rows: RowRange) -> bool:
@@ -462,14 +462,14 @@ def end_of_overlap(path: Path, rows: RowRange) -> int:
     return last + _running_along(path, last, first, min(len(path) - last, last - first))
 
 
-def _running_along(path: Path, row: int, other: int, most: int) -> int:
-    """Return how many pieces from a row on, `most` at most, run along those from the other row on.
+def _running_along(path: Path, row: int, earlier_row: int, most: int) -> int:
+    """Return how many pieces from a row on, `most` at most, run along those from the earlier row on.
 
     Such a piece starts where the other one does, goes the same way, and is no longer than that one.
     """
-    later, earlier = path.part(row, row + most), path.part(other, other + most)
-    apart = np.maximum(np.abs(later.starts - earlier.starts), np.abs(later.centers - earlier.centers)).max(axis=1)
-    same = (later.turns == earlier.turns) & (apart <= CLOSED)
+    later, earlier = path.part(row, row + most), path.part(earlier_row, earlier_row + most)
+    distances = np.maximum(np.abs(later.starts - earlier.starts), np.abs(later.centers - earlier.centers)).max(axis=1)
+    same = (later.turns == earlier.turns) & (distances <= CLOSED)
     same &= (later.start_directions * earlier.start_directions).sum(axis=1) > cos(MAX_RETRACE_ANGLE)
     same &= later.lengths <= earlier.lengths + CLOSED
     return most if same.all() else int(same.argmin())

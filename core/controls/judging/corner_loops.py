@@ -52,8 +52,8 @@ def without_corner_loops(contour: Path, side: Side) -> tuple[Path, tuple[CornerL
         return shorter, loops
     middle = int(np.abs(shorter.lengths.cumsum() - 0.5 * shorter.lengths.sum()).argmin()) + 1
     elsewhere = joined([shorter.part(middle, len(shorter)), shorter.part(0, middle)])
-    again, more = _cut_back(elsewhere, side)
-    return (again, (*loops, *more)) if more else (shorter, loops)
+    shortest, other_loops = _cut_back(elsewhere, side)
+    return (shortest, (*loops, *other_loops)) if other_loops else (shorter, loops)
 
 
 def _crosses(contour: Path) -> bool:

@@ -83,11 +83,13 @@ class JudgedContour:
     """Walls that other passes of the stretch cut away."""
 
 
-def with_gouges(result: JudgedContour, more: Sequence[Gouge], slack: float, paths: Sequence[Path]) -> JudgedContour:
+def with_gouges(
+    result: JudgedContour, other_gouges: Sequence[Gouge], slack: float, paths: Sequence[Path]
+) -> JudgedContour:
     """Return the result with more gouges, and the most uneven arc of these paths if it raises the tolerance."""
     if not result.verdict.judged:
         return result
-    gouges = sorted((*result.verdict.gouges, *more), key=lambda gouge: -gouge.depth)
+    gouges = sorted((*result.verdict.gouges, *other_gouges), key=lambda gouge: -gouge.depth)
     if slack > (result.uneven_arc.slack if result.uneven_arc else 0.0):
         result = replace(result, uneven_arc=most_uneven_arc(slack, *paths))
     return replace(result, verdict=replace(result.verdict, gouges=tuple(gouges)))
@@ -96,20 +98,20 @@ def with_gouges(result: JudgedContour, more: Sequence[Gouge], slack: float, path
 def with_unjudged(results: list[JudgedContour], unjudged: Sequence[JudgedContour]) -> list[JudgedContour]:
     """Return the results, and of the unjudged ones one for each reason that no result gives."""
     reasons = {result.verdict.uneven_arc for result in results if not result.verdict.judged}
-    more = {result.verdict.uneven_arc: result for result in unjudged if result.verdict.uneven_arc not in reasons}
-    return [*results, *more.values()]
+    by_reason = {result.verdict.uneven_arc: result for result in unjudged if result.verdict.uneven_arc not in reasons}
+    return [*results, *by_reason.values()]
 
 
 def most_uneven_arc(slack: float, *paths: Path) -> ToleratedArc | None:
     """Return the arc of these paths whose radii differ most; None if neither it nor `slack` exceeds ARC_RADII."""
-    worst, difference = None, ARC_RADII if slack <= ARC_RADII else ON_PATH
+    worst, largest = None, ARC_RADII if slack <= ARC_RADII else ON_PATH
     for path in paths:
         arms = path.ends - path.centers
         first, last = path.radii, np.hypot(arms[:, 0], arms[:, 1])
-        apart = np.where(path.turns != 0, np.abs(last - first), 0.0)
-        row = int(apart.argmax()) if len(apart) else 0
-        if len(apart) and apart[row] > difference:
-            line, difference = line_of(path.numbers[row]), apart[row]
+        differences = np.where(path.turns != 0, np.abs(last - first), 0.0)
+        row = int(differences.argmax()) if len(differences) else 0
+        if len(differences) and differences[row] > largest:
+            line, largest = line_of(path.numbers[row]), differences[row]
             worst = ToleratedArc(float(first[row]), float(last[row]), line, slack)
     return worst
 

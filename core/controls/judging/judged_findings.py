@@ -124,8 +124,8 @@ def _passed_over(result: JudgedContour) -> Iterator[Finding]:
     if above is None:
         return
     listed = ", ".join(map(str, above.lines[:MAX_LINES])) + (" ..." if len(above.lines) > MAX_LINES else "")
-    which = f"line {listed}" if len(above.lines) == 1 else f"lines {listed}"
-    text = f"The tool passes over the part at Z {{0}} or higher ({which}). Check that it clears part and clamps."
+    named_lines = f"line {listed}" if len(above.lines) == 1 else f"lines {listed}"
+    text = f"The tool passes over the part at Z {{0}} or higher ({named_lines}). Check that it clears part and clamps."
     yield Finding("ABOVE", Severity.WARNING, text, lengths=(above.height,), line=above.lines[0])
 
 
@@ -150,9 +150,9 @@ def _cuts(result: JudgedContour) -> list[Finding]:
     if not verdict.judged:
         return [_unjudged(result)]
     listed = [_gouge(gouge, verdict.radius) for gouge in verdict.gouges[:MAX_GOUGES]]
-    left = len(verdict.gouges) - len(listed)
-    if left:
-        listed.append(Finding("GOUGE", Severity.ERROR, f"{left} more gouges, none deeper."))
+    unlisted = len(verdict.gouges) - len(listed)
+    if unlisted:
+        listed.append(Finding("GOUGE", Severity.ERROR, f"{unlisted} more gouges, none deeper."))
     if verdict.wrong_side:
         line = line_of(result.center.numbers[verdict.wrong_side[0]])
         text = "The cutter is on the wrong side of the contour at this line."
@@ -272,8 +272,8 @@ def _contact(result: JudgedContour) -> list[Finding]:
 def _several(away: Sequence[Finding]) -> Finding:
     """Merge several air cuts into one finding, at the place farthest from the part."""
     lines = list(dict.fromkeys(str(finding.line) for finding in away))
-    more = " ..." if len(lines) > MAX_LINES else ""
-    text = f"The path cuts air at {len(away)} places (lines {', '.join(lines[:MAX_LINES])}{more}), "
+    ellipsis = " ..." if len(lines) > MAX_LINES else ""
+    text = f"The path cuts air at {len(away)} places (lines {', '.join(lines[:MAX_LINES])}{ellipsis}), "
     text += "at most {0} off the part, at X {x} Y {y}."
     return replace(max(away, key=lambda finding: finding.lengths), text=text)
 

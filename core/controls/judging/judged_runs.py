@@ -47,8 +47,8 @@ def judge_run(run: ControlRun, progress: Progress = silent) -> tuple[JudgedConto
         return ()
     least, results, heights = smallest_gouge(run.unit), list[JudgedContour](), heights_above(run)
     judging, comparing = part_of(progress, 0.0, JUDGING_SHARE), part_of(progress, JUDGING_SHARE, 1.0)
-    for done, stretch in enumerate(run.stretches):
-        judging(done / len(run.stretches))
+    for index, stretch in enumerate(run.stretches):
+        judging(index / len(run.stretches))
         cut_short = run.stops_within(stretch)
         results += [
             replace(_without_shallow(result, least), cut_short=cut_short)
@@ -85,12 +85,12 @@ def _without_shallow(result: JudgedContour, least: float) -> JudgedContour:
 
 def _judge_without_moves_above(run: ControlRun, stretch: Stretch, height: float) -> list[JudgedContour]:
     """Judge a stretch; if it gouges or loops, omit its moves at `height` or higher unless that leaves more gouges."""
-    whole = judge_stretch(run, stretch)
-    if not any(result.verdict.gouges or result.verdict.wrong_side or result.corner_loops for result in whole):
-        return whole
+    results = judge_stretch(run, stretch)
+    if not any(result.verdict.gouges or result.verdict.wrong_side or result.corner_loops for result in results):
+        return results
     parted = divided(run.moves, stretch, height)
     pieces = None if parted is None else _judge_pieces(run, stretch, parted)
-    return whole if pieces is None or _count_gouges(pieces) > _count_gouges(whole) else pieces
+    return results if pieces is None or _count_gouges(pieces) > _count_gouges(results) else pieces
 
 
 def _count_gouges(results: Sequence[JudgedContour]) -> int:
@@ -128,18 +128,18 @@ def _judge_pieces(run: ControlRun, stretch: Stretch, parted: Divided) -> list[Ju
     }
     unjudged: list[JudgedContour] = []
     for piece, results in zip(parted.pieces, judged, strict=True):
-        center, own = results[0].center, {path_key(result.surface) for result in results}
+        center, own_keys = results[0].center, {path_key(result.surface) for result in results}
         near = {path_key(contour): contour for contour in contours.near(center, stretch.radius)}
-        others = {key: contour for key, contour in near.items() if key not in own}
-        whole_walls = [contour for key, contour in others.items() if key not in cut_away]
+        other_walls = {key: contour for key, contour in near.items() if key not in own_keys}
+        whole_walls = [contour for key, contour in other_walls.items() if key not in cut_away]
         cuts = cuts_into(run, stretch, center, whole_walls)
         gouges = [
             *cuts.gouges,
             *(
                 gouge
                 for key, wall in cut_away.items()
-                if key in others and wall.stands
-                for gouge in cuts_below(run, piece, wall.top, others[key], Leads.MOVES)
+                if key in other_walls and wall.stands
+                for gouge in cuts_below(run, piece, wall.top, other_walls[key], Leads.MOVES)
             ),
         ]
         results[0] = with_gouges(results[0], gouges, cuts.slack, (*whole_walls, center))

@@ -78,8 +78,8 @@ def judge_stretch(run: ControlRun, stretch: Stretch) -> list[JudgedContour]:
             passes = [each for other in same_side for each in other.closed_passes()]
             judged = _judge_part(run, part, passes)
             others = _clipped(contours, (same_side[0].rows[0], same_side[-1].rows[1]))
-            judged[0], unknown = _with_other_parts(run, judged[0], surface, others, part.rows, passes)
-            unjudged += unknown
+            judged[0], not_judged = _with_other_parts(run, judged[0], surface, others, part.rows, passes)
+            unjudged += not_judged
         judged[0] = replace(judged[0], side_changes=side_changes)
         results += judged
     return with_unjudged(results, unjudged)
@@ -97,13 +97,13 @@ def _parts(stretch: Stretch, surface: Path, contours: Sequence[RowRange]) -> lis
     overlaps = [(last, end_of_overlap(surface, (first, last))) for first, last in contours]
     parts, open_lines = list[_Part](), _open_lines(surface, contours)
     ends = accumulate(map(len, surfaces), initial=0)
-    for part, own, rows in zip(stretch.parts(), surfaces, pairwise(ends), strict=True):
+    for part, part_surface, rows in zip(stretch.parts(), surfaces, pairwise(ends), strict=True):
         repeated = max((last - first for first, last in _clipped(overlaps, rows)), default=0)
         if repeated > MAX_LEAD_MOVES:
-            inner = {each: frozenset[float]() for each in contours_of(own)}
+            inner = {each: frozenset[float]() for each in contours_of(part_surface)}
         else:
             inner = _contours_within(contours, rows, open_lines)
-        parts.append(_Part(part, own, rows, inner))
+        parts.append(_Part(part, part_surface, rows, inner))
     return parts
 
 
@@ -211,8 +211,8 @@ def _judge_part(run: ControlRun, part: _Part, passes: Sequence[ClosedPass] = ())
         results += judged([walls[len(results)]], alone=len(walls) == 1)
     if results[-1].verdict.gouges:
         contours = [between_lead_arcs(surface, each, stretch, cut_short=run.stops_within(stretch)) for each in rows]
-        own = closed_passes_of(surface, contours, surface_heights(stretch, surface), stretch.radius)
-        standing = walls_of(standing_walls(passes or own, stretch.side), own)
+        own_passes = closed_passes_of(surface, contours, surface_heights(stretch, surface), stretch.radius)
+        standing = walls_of(standing_walls(passes or own_passes, stretch.side), own_passes)
         cut_away = tuple(wall for wall in standing if wall.cut_away_by)
         if cut_away:
             open_walls = _walls(surface, [each for each in contours if not is_closed(surface, each)])

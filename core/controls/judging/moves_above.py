@@ -53,8 +53,8 @@ def _leads(run: ControlRun) -> Flags:
     """Return (n,) flags of the run's rows that belong to a compensated stretch but not to its surface."""
     rows = np.zeros(len(run.moves), np.bool_)
     for stretch in run.stretches:
-        made = slice(stretch.first + 1, stretch.last)
-        rows[made] |= ~np.isin(run.moves.lines[made], stretch.programmed.lines[surface_rows(stretch)])
+        moves = slice(stretch.first + 1, stretch.last)
+        rows[moves] |= ~np.isin(run.moves.lines[moves], stretch.programmed.lines[surface_rows(stretch)])
     return rows
 
 
@@ -62,18 +62,18 @@ def divided(moves: Moves, stretch: Stretch, height: float) -> Divided | None:
     """Return the stretch without its moves at `height` or higher; None if there are none or they may cut something."""
     if stretch.plane is not Plane.XY or stretch.changes:
         return None
-    programmed, made = stretch.programmed, moves.part(stretch.first, stretch.last)
-    high, made_high = _at_least(programmed, height), _at_least(made, height)
+    programmed, driven = stretch.programmed, moves.part(stretch.first, stretch.last)
+    high, driven_high = _at_least(programmed, height), _at_least(driven, height)
     if (surface_rows(stretch) & ~programmed.rapid & high).any():
         return None
-    contours, paths = _between(programmed, high), _between(made, made_high)
-    gaps = _gaps(paths, len(made))
+    contours, paths = _between(programmed, high), _between(driven, driven_high)
+    gaps = _gaps(paths, len(driven))
     linked = [_lines(programmed, gap) for gap in _gaps(contours, len(programmed))[1:-1]]
-    if not paths or len(contours) != len(paths) or linked != [_lines(made, gap) for gap in gaps[1:-1]]:
+    if not paths or len(contours) != len(paths) or linked != [_lines(driven, gap) for gap in gaps[1:-1]]:
         return None
-    if not all(made_high[last + 1 : first + 1].all() for last, first in gaps):
+    if not all(driven_high[last + 1 : first + 1].all() for last, first in gaps):
         return None
-    above = [made.part(last, first + 1) for last, first in gaps]
+    above = [driven.part(last, first + 1) for last, first in gaps]
     leads = tuple(lead for lead in (above[0], above[-1]) if lead.moving_in(Plane.XY).any())
     if not leads and len(above) == 2:
         return None

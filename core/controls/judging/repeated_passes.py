@@ -62,8 +62,8 @@ def _periods(names: Rows) -> list[int]:
     """Return, ascending, how many pieces ago equal pieces were last seen, if that can be a pass's length."""
     order = np.argsort(names, kind="stable")
     same = names[order[1:]] == names[order[:-1]]
-    ago, counts = np.unique((order[1:] - order[:-1])[same], return_counts=True)
-    periods: list[int] = ago[MIN_SHARE * counts >= ago].tolist()
+    distances, counts = np.unique((order[1:] - order[:-1])[same], return_counts=True)
+    periods: list[int] = distances[MIN_SHARE * counts >= distances].tolist()
     return periods
 
 
@@ -73,12 +73,12 @@ def _cut(path: Path, names: Rows, rows: Rows, period: int) -> Rows:
     A run of at least `period` pieces that each equal the piece a period before is closed: it ends with the piece before
     it, and so where it begins.  The rest of a last pass that is not whole stays.
     """
-    named, again = names[rows], np.zeros(len(rows) + 2, np.bool_)
-    again[period + 1 : -1] = named[period:] == named[:-period]
-    edges = np.flatnonzero(again[1:] != again[:-1])
-    first, whole = edges[::2], (edges[1::2] - edges[::2]) // period * period
+    named, repeats = names[rows], np.zeros(len(rows) + 2, np.bool_)
+    repeats[period + 1 : -1] = named[period:] == named[:-period]
+    edges = np.flatnonzero(repeats[1:] != repeats[:-1])
+    first, repeated_rows = edges[::2], (edges[1::2] - edges[::2]) // period * period
     keep = np.ones(len(rows), np.bool_)
-    for begin, count in zip(first[whole > 0].tolist(), whole[whole > 0].tolist(), strict=True):
+    for begin, count in zip(first[repeated_rows > 0].tolist(), repeated_rows[repeated_rows > 0].tolist(), strict=True):
         if _joins(path, rows, begin, begin + count):
             keep[begin : begin + count] = False
     return rows[keep]

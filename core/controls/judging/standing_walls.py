@@ -164,12 +164,20 @@ def standing_walls(passes: Sequence[ClosedPass], side: Side) -> list[StandingWal
         path = joined([passes[row].path for row in shape.rows])
         low = min(passes[row].low for row in shape.rows)
         near = [shapes[index] for index in sorted(tree.query(shape.region).tolist())]
-        behind = [other for other in near if shape.runs_as(other) and _is_behind(shape, other, side)]
-        close = [row for other in behind for row in other.rows if _is_close(shape, other, passes[row].radius, side)]
-        wide = [row for other in behind for row in other.rows if _is_wide(shape, other, passes[row].radius, side)]
-        steps = [passes[row] for row in wide if passes[row].high > low + ON_PATH]
-        others = [_lowest([*steps, *_cutting(row, passes, close)]) for row in shape.rows]
-        highest = None if None in others else max((each for each in others if each), key=lambda other: other.high)
+        shapes_behind = [other for other in near if shape.runs_as(other) and _is_behind(shape, other, side)]
+        close_passes = [
+            row for other in shapes_behind for row in other.rows if _is_close(shape, other, passes[row].radius, side)
+        ]
+        wide_passes = [
+            row for other in shapes_behind for row in other.rows if _is_wide(shape, other, passes[row].radius, side)
+        ]
+        steps = [passes[row] for row in wide_passes if passes[row].high > low + ON_PATH]
+        cutting_passes = [_lowest([*steps, *_cutting(row, passes, close_passes)]) for row in shape.rows]
+        highest = (
+            None
+            if None in cutting_passes
+            else max((each for each in cutting_passes if each), key=lambda other: other.high)
+        )
         if highest is None:
             walls.append(StandingWall(path, low, shape=key))
         else:

@@ -31,8 +31,10 @@ def surface_heights(stretch: Stretch, surface: Path) -> Floats:
     programmed = stretch.programmed.part(stretch.entry, len(stretch.programmed) - stretch.exit)
     rows = np.flatnonzero(programmed.moving_in(stretch.plane))
     if len(rows) < len(surface):
-        whole = programmed_surface(stretch)
-        split = split_where_it_closes(replace(whole, numbers=np.arange(len(whole), dtype=np.float64))).path
+        surface_path = programmed_surface(stretch)
+        split = split_where_it_closes(
+            replace(surface_path, numbers=np.arange(len(surface_path), dtype=np.float64))
+        ).path
         rows = rows[split.numbers.astype(np.intp)]
     heights = programmed.points[:, Z_COLUMN]
     return np.column_stack((heights[rows - 1], heights[rows]))
@@ -40,8 +42,8 @@ def surface_heights(stretch: Stretch, surface: Path) -> Floats:
 
 def closed_passes_of_stretch(stretch: Stretch) -> list[ClosedPass]:
     """Return the closed passes of a stretch of one side and radius."""
-    whole, contours = split_where_it_closes(programmed_surface(stretch))
-    return closed_passes_of(whole, contours, surface_heights(stretch, whole), stretch.radius)
+    surface, contours = split_where_it_closes(programmed_surface(stretch))
+    return closed_passes_of(surface, contours, surface_heights(stretch, surface), stretch.radius)
 
 
 def center_path(run: ControlRun, stretch: Stretch) -> Path:
