@@ -110,7 +110,7 @@ class Question(Dialog[str]):
     @on(OptionList.OptionSelected)
     def _selected(self, event: OptionList.OptionSelected) -> None:
         if self.readable or event.option_id == GO_BACK:
-            self.dismiss(event.option_id or GO_BACK)
+            self.answer(event.option_id or GO_BACK)
 
     def on_key(self, event: events.Key) -> None:
         """Give the answer whose word begins with the letter."""
@@ -119,7 +119,34 @@ class Question(Dialog[str]):
         word = next(words, None)
         if word is not None and self.readable:
             event.stop()
+            self.answer(word)
+
+    def answer(self, word: str) -> None:
+        """Close with the word of the chosen answer."""
+        self.dismiss(word)
+
+
+class Steps(Question):
+    """A question at the top of the screen whose answers can be given again and again until Esc.
+
+    `step` does what an answer says and returns the new line, or None where the answer closes the question.
+    """
+
+    def __init__(
+        self, title: str, line: str, answers: Sequence[Answer], end: str, step: Callable[[str], str | None]
+    ) -> None:
+        super().__init__(title, [line], answers, answers[0].word)
+        self.answers = (*answers, Answer(GO_BACK, end))
+        self.step = step
+
+    def answer(self, word: str) -> None:
+        """Do the step and keep the cursor on it, so that Enter repeats it."""
+        line = None if word == GO_BACK else self.step(word)
+        if line is None:
             self.dismiss(word)
+            return
+        self.query_one("#loss", Static).update(line)
+        self.query_one(OptionList).highlighted = [answer.word for answer in self.answers].index(word)
 
 
 def _line(answer: Answer) -> str:

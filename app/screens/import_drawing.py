@@ -21,7 +21,7 @@ from app.documents.drawing_files import Progress, Worker, drawing_bytes, prepare
 from app.documents.programs import empty_program
 from app.documents.questions import GO_BACK, Answer
 from app.screens.base import BaseScreen
-from app.screens.dialogs import ChooseSeveral, NumberEntry, NumberForm, Question
+from app.screens.dialogs import ChooseSeveral, NumberEntry, NumberForm, Question, Steps
 from app.session.formats import length, place
 from app.session.messages import Sentence, Tone
 from app.widgets.contour_table import ContourTable
@@ -470,23 +470,38 @@ class ImportScreen(BaseScreen):
 
     @work(exclusive=True, group="question")
     async def action_start(self) -> None:
-        """Ask for a new start point on the contour with the cursor."""
+        """Move the start of the contour with the cursor step by step; the drawing follows each step."""
         contour, unit = self.contour, self.unit
         if contour is None:
             return
-        lines = [f"chain {contour.number} starts at {place(contour.start, unit)}"]
-        word = await self.app.push_screen_wait(Question("START", lines, START_ANSWERS, START_ANSWERS[0].word))
-        if word == "X Y":
+        end = "the start stays where it is"
+        steps = Steps("START", self._start_line(contour), START_ANSWERS, end, self._step_start)
+        if await self.app.push_screen_wait(steps) == "X Y":
             entries = [NumberEntry(f"{axis} START", Kind.LENGTH, "0") for axis in "XY"]
             values = await self.app.push_screen_wait(
                 NumberForm("START", ["The place of the chain that is nearest."], entries, unit)
             )
             if values:
                 x, y = (to_mm(value, unit) for value in values)
-                self._change(lambda each: started_at(each, (x, y)), [contour])
-        elif word != GO_BACK:
-            self._change(CHANGE_OF_ANSWER[word], [contour])
+                self._change(lambda each: started_at(each, (x, y)), [self._contour(contour.number)])
         self._show_row()
+
+    def _step_start(self, word: str) -> str | None:
+        """Move the start as an answer to START says; return where it is now, None for an answer that moves nothing."""
+        before = self.contour
+        if before is None or word not in CHANGE_OF_ANSWER:
+            return None
+        self._change(CHANGE_OF_ANSWER[word], [before])
+        self._show_row()
+        after = self._contour(before.number)
+        if not before.closed:
+            return f"chain {before.number} is open: only X Y moves its start to the other end"
+        if before.circle is not None and "CORNER" in word:
+            return f"chain {before.number} is a circle: it has no corner"
+        return self._start_line(after)
+
+    def _start_line(self, contour: Contour) -> str:
+        return f"chain {contour.number} starts at {place(contour.start, self.unit)}"
 
     @work(exclusive=True, group="question")
     async def action_fit(self) -> None:
@@ -720,7 +735,8 @@ HELP_LINES: Final = (
     "Each row is one chain of the drawing: closed ones by size, holes after what they lie in, open ones last.",
     "Space marks a row, Enter or F1 makes a MILL CONTOUR block of each marked chain, in one edit.",
     "F3 FIT ARCS makes arcs of runs of short lines; F3 again brings the lines back.",
-    "F5 START moves the start, F6 REVERSE turns the direction; CUTTER COMP. follows it.",
+    "F5 START moves the start: its keys step on, Enter repeats a step, Esc ends. The drawing follows.",
+    "F6 REVERSE turns the direction; CUTTER COMP. follows it.",
     "B asks where an open chain goes on at a branch.",
 )
 

@@ -11,7 +11,7 @@ from pathlib import Path
 
 import pytest
 from ezdxf.filemanagement import new as new_drawing
-from textual.widgets import DataTable, Label
+from textual.widgets import DataTable, Label, Static
 
 from app.app import CutcompApp
 from app.documents import drawing_files
@@ -318,6 +318,7 @@ async def test_start_and_reverse_change_the_block(tmp_path):
         await user.until(lambda: user.contour.start != (20.0, 0.0))
         assert user.contour.start == (40.0, 0.0)
         assert "corner" in user.about
+        await user.press("escape")
         await user.press("f5", "x")
         await user.until(lambda: isinstance(user.app.screen, NumberForm))
         await user.press("backspace", "'9", "enter", "backspace", "'3", "'3", "enter")
@@ -327,6 +328,33 @@ async def test_start_and_reverse_change_the_block(tmp_path):
         block = user.session.program.blocks[0]
         assert (block.x_start.value, block.y_start.value) == (9.0, 30.0)
         assert block.cutter_comp is CutterComp.RIGHT
+
+
+async def test_start_stays_open_and_repeats_its_steps_until_esc(tmp_path):
+    async with importer(DATA / "d01-square.dxf", tmp_path) as user:
+        await user.press("f5", "n", "n", "n")
+        await user.until(lambda: user.contour.start == (40.0, 30.0))
+        assert isinstance(user.app.screen, Question)
+        assert "starts at X 40.000 Y 30.000" in user.question.query_one("#loss", Static).render().plain
+        assert "start X 40.000 Y 30.000" in user.about
+        await user.press("c", "enter")
+        await user.until(lambda: user.contour.start == (0.0, 0.0))
+        await user.press("s")
+        await user.until(lambda: user.contour.start == (0.0, 15.0))
+        await user.press("escape")
+        assert isinstance(user.app.screen, ImportScreen)
+        assert user.contour.start == (0.0, 15.0)
+
+
+async def test_start_leaves_the_drawing_visible_and_says_what_a_step_cannot_do(tmp_path):
+    async with importer(dxf(circle((0, 0), 5)), tmp_path) as user:
+        await user.press("f5", "n")
+        await user.until(lambda: "no corner" in user.question.query_one("#loss", Static).render().plain)
+        assert user.question.query_one("#question").region.bottom <= user.importing.picture.region.y
+        await user.press("escape")
+    async with importer(dxf(line((0, 0), (10, 0)), line((10, 0), (10, 5))), tmp_path) as user:
+        await user.press("f5", "n")
+        await user.until(lambda: "is open" in user.question.query_one("#loss", Static).render().plain)
 
 
 async def test_what_the_reader_says_about_a_spline_is_readable_at_80_columns(tmp_path):
