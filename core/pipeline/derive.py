@@ -6,6 +6,7 @@ from collections.abc import Callable
 from dataclasses import dataclass, replace
 
 from core.advice.block_paths import BlockPaths, RoughPass
+from core.advice.largest_blend import with_largest_blend
 from core.advice.lookahead_table import CuttingSetup, Row, Table, judge_lookaheads
 from core.advice.path_findings import (
     better_path_findings,
@@ -37,7 +38,7 @@ from core.pipeline.jobs import job
 from core.pipeline.parameters import MAX_SIDE_PASSES, parameter, stocks
 from core.program.model import PathChoice, Program
 from core.progress import Progress, part, silent
-from core.units import Kind, decimals_shown, to_mm
+from core.units import Kind, decimals_shown, from_mm, to_mm
 from core.verify.judge import judge_together
 from core.verify.verdict import Verdict
 
@@ -158,6 +159,7 @@ def _with_findings(block: DerivedBlock, paths: BlockPaths, program: Program) -> 
         back = turning_back(paths.surface, closed=closed)
         trouble = (*path_findings(paths), *size_warning(block.radius, paths.surface))
         if block.side is not None:
+            trouble = _with_largest_blend(trouble, paths, block.side, program)
             trouble += tight_arcs(paths.verdict, paths.surface, block.side, block.radius)
     if len(paths.rough) > MAX_SIDE_PASSES:
         text = f"MAX OFFSET makes more than {MAX_SIDE_PASSES} side passes. "
@@ -170,6 +172,14 @@ def _with_findings(block: DerivedBlock, paths: BlockPaths, program: Program) -> 
     block_job = job(block, program)
     further = (*dict.fromkeys(job_errors(block_job, Grid(program.unit))), *z_step_findings(z_steps(block_job)))
     return replace(block, findings=by_severity((*findings, *further)))
+
+
+def _with_largest_blend(
+    findings: tuple[Finding, ...], paths: BlockPaths, side: Side, program: Program
+) -> tuple[Finding, ...]:
+    decimals, unit = decimals_shown(Kind.LENGTH, program.unit), program.unit
+    typed = int(from_mm(parameter(program, "blend_offset"), unit) * 10**decimals + 1e-6)
+    return with_largest_blend(findings, paths, side, lambda steps: to_mm(steps / 10**decimals, unit), typed)
 
 
 def look_ahead_table(

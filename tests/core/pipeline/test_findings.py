@@ -111,9 +111,10 @@ def test_blend_arcs_that_cross_a_wall_are_reported(offset):
     (derived_block,) = derive(program(block(square, CutterComp.LEFT), parameters=parameters)).blocks
     messages = [sentence(finding, Unit.IN) for finding in derived_block.findings if finding.code == "BLEND_LEAVES"]
     far = [f"{place:.4f}" for place in (1 - offset, 1 + offset, 0.25 + offset)]
+    remedy = "crosses a wall. Reduce BLEND OFFSET with F4: the largest that fits here is 0.7500."
     expected = [
-        f"The blend-in arc from X {far[0]} Y {far[2]} crosses a wall. Reduce BLEND OFFSET with F4.",
-        f"The blend-out arc to X {far[1]} Y {far[2]} crosses a wall. Reduce BLEND OFFSET with F4.",
+        f"The blend-in arc from X {far[0]} Y {far[2]} {remedy}",
+        f"The blend-out arc to X {far[1]} Y {far[2]} {remedy}",
     ]
     assert messages == (expected if offset > 1.0 else [])
 

@@ -1,0 +1,98 @@
+"""Largest blend: the largest BLEND OFFSET whose arcs cut nothing but stock, on every pass of a block."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator, Sequence
+from dataclasses import replace
+from typing import Final
+
+from core.advice.block_paths import BlockPaths
+from core.comp.blend_moves import blend_in, blend_out
+from core.comp.compensated import CenterPath
+from core.finding import Finding
+from core.geometry.path import Path
+from core.geometry.piece import Side
+from core.tolerance import GOUGE
+from core.verify.judge import judge_prepared
+from core.verify.surface import Surface
+
+BLEND_CODES: Final = frozenset({"BLEND_GOUGES", "BLEND_LEAVES"})
+"""Codes of the findings that a smaller BLEND OFFSET may mend."""
+
+COARSE_STEPS: Final = 16
+"""Sizes, evenly spaced from the typed one down, that are tried before the bisection: an arc may gouge, a smaller one
+fit, and a still smaller one gouge again."""
+
+
+def with_largest_blend(
+    findings: Sequence[Finding], paths: BlockPaths, side: Side, size: Callable[[int], float], typed: int
+) -> tuple[Finding, ...]:
+    """Add to the findings on blend arcs the largest BLEND OFFSET that fits; none if no finding is about them.
+
+    `size` gives the millimeters of so many steps of a form's last digit; `typed` are the steps of what is in force.
+    """
+    if not any(finding.code in BLEND_CODES for finding in findings):
+        return tuple(findings)
+    largest = largest_blend(paths, side, size, typed)
+    if largest is None:
+        return tuple(findings)
+    return tuple(_with_value(each, largest) if each.code in BLEND_CODES else each for each in findings)
+
+
+def _with_value(finding: Finding, largest: float) -> Finding:
+    fits = "the largest that fits here is {0}" if largest else "only 0 fits here"
+    return replace(finding, text=f"{finding.text.removesuffix('.')}: {fits}.", lengths=(largest,) if largest else ())
+
+
+def largest_blend(paths: BlockPaths, side: Side, size: Callable[[int], float], typed: int) -> float | None:
+    """Return the largest BLEND OFFSET in millimeters up to `typed` steps that fits, 0 if only that does.
+
+    It is judged like the posted paths, and one step more does not fit.  None if the path gouges even without blends:
+    then another number is wrong.
+    """
+    surface = Surface.prepare(paths.surface, side)
+
+    def fits(steps: int) -> bool:
+        return all(_cuts_only_stock(surface, *cut, size(steps)) for cut in _passes(paths))
+
+    fails = typed + 1
+    for share in range(COARSE_STEPS, -1, -1):
+        clean = typed * share // COARSE_STEPS
+        if clean == 0 or fits(clean):
+            break
+        fails = clean
+    while fails - clean > 1:
+        middle = (clean + fails) // 2
+        clean, fails = (middle, fails) if fits(middle) else (clean, middle)
+    return size(clean) if clean or not _gouges_without_blends(surface, paths) else None
+
+
+def _passes(paths: BlockPaths) -> Iterator[tuple[tuple[CenterPath, ...], float, float]]:
+    """Yield each pass of a block: its loops, the radius at which it is judged, and the depth that it may cut there."""
+    assert paths.verdict is not None
+    yield paths.loops, paths.verdict.radius, 0.0
+    for rough in paths.rough:
+        yield rough.loops, rough.verdict.radius, rough.stock + GOUGE
+
+
+def _cuts_only_stock(surface: Surface, loops: Sequence[CenterPath], radius: float, stock: float, blend: float) -> bool:
+    """True if the blend arcs of this radius on these loops go no deeper than the stock."""
+    arcs = [arc for loop in loops for arc in _arcs(loop, surface.side, blend) if len(arc)]
+    if not arcs:
+        return True
+    verdict = judge_prepared(surface, radius, arcs, measures_uncut=False)
+    deep = any(gouge.depth > stock for gouge in verdict.gouges)
+    return verdict.judged and not deep and not verdict.wrong_side
+
+
+def _arcs(loop: CenterPath, side: Side, blend: float) -> tuple[Path, Path]:
+    # the last piece of a way out with a blend is its arc; those before it are the overlap
+    overlap = loop.lead_out.part(0, len(loop.lead_out) - 1) if len(loop.lead_out) else loop.lead_out
+    last = overlap if len(overlap) else loop.path
+    return blend_in(loop.path, side, blend), blend_out(last, side, blend, 0.0, closed=False)
+
+
+def _gouges_without_blends(surface: Surface, paths: BlockPaths) -> bool:
+    assert paths.verdict is not None
+    alone = [loop.path for loop in paths.loops]
+    return bool(judge_prepared(surface, paths.verdict.radius, alone, measures_uncut=False).gouges)
