@@ -4,7 +4,8 @@ File readers and simulated controls raise errors of their own.
 
 A finding's text is a sentence for the operator.  It has placeholders for lengths, `{value}`, `{x}`, `{y}` or
 `{0}`, `{1}` ... (of `lengths`), and for an area, `{area}`; `core.units.sentence` fills them in program units.
-`{0~1}` is length 0 with enough decimals to tell it from length 1.
+`{0~1}` is length 0 with enough decimals to tell it from length 1; `{0-}` is a largest length, rounded down so that it
+still fits when it is typed, `{0+}` a smallest one, rounded up.
 """
 
 from __future__ import annotations

@@ -11,7 +11,7 @@ from dataclasses import dataclass
 from enum import Enum, StrEnum, auto
 from fractions import Fraction
 from functools import lru_cache
-from math import isfinite
+from math import ceil, floor, isfinite
 from typing import Final, assert_never
 
 from core.arithmetic import CannotReadError, evaluate
@@ -62,6 +62,8 @@ MOST_DECIMALS: Final = 20
 """A conversion that needs this many decimals or more keeps them all."""
 
 EXTRA_DECIMALS: Final = 6
+LAST_DIGITS: Final = 1e-9
+"""By how much, in program units, rounding may have moved a limit that was calculated from typed numbers."""
 """Most decimals that a sentence adds to a form's decimals to tell two nearly equal lengths apart."""
 
 
@@ -156,11 +158,13 @@ def sentence(finding: Finding, unit: Unit) -> str:
         if length is None or (place[2] and other is None):
             return place[0]
         here = from_mm(length, unit)
+        if place[3]:
+            return _rounded_inward(here, unit, up=place[3] == "+")
         if other is None or abs(length - other) <= ROUNDING:
             return show(here, Kind.LENGTH, unit)
         return _telling_digits(here, from_mm(other, unit), unit)
 
-    return re.sub(r"\{(\w+)(?:~(\w+))?\}", fill, finding.text)
+    return re.sub(r"\{(\w+)(?:~(\w+)|([-+]))?\}", fill, finding.text)
 
 
 def segment_name(number: float) -> str:
@@ -175,6 +179,21 @@ def located_sentence(finding: Finding, unit: Unit) -> str:
         parts.append(segment_name(finding.segment) if finding.segment else "START")
     where = ", ".join(parts)
     return f"{where[:1].upper()}{where[1:]}: {sentence(finding, unit)}" if where else sentence(finding, unit)
+
+
+def _rounded_inward(value: float, unit: Unit, *, up: bool) -> str:
+    """Format a limit with a form's decimals so that the number typed is within it; more decimals if it were 0."""
+    fewest = decimals_shown(Kind.LENGTH, unit)
+    text = show(value, Kind.LENGTH, unit)
+    if not isfinite(value) or abs(value) <= LAST_DIGITS:
+        return text
+    for digits in range(fewest, fewest + EXTRA_DECIMALS):
+        # a difference of typed numbers may miss what it should be by its last digits
+        whole = ceil((value - LAST_DIGITS) * 10**digits) if up else floor((value + LAST_DIGITS) * 10**digits)
+        text = f"{whole / 10**digits:.{digits}f}"
+        if whole:
+            break
+    return text
 
 
 def _telling_digits(value: float, other: float, unit: Unit) -> str:

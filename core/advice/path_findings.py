@@ -225,7 +225,7 @@ def tight_arcs(verdict: Verdict, surface: Path, side: Side, radius: float) -> tu
         after_first, before_last = first <= number, number <= last
         # a stretch may run over START
         if np.where(first <= last, after_first & before_last, after_first | before_last).any():
-            text = "The radius {0~1} is smaller than the tool's {1~0}. To cut it use a tool of {value} or smaller."
+            text = "The radius {0~1} is smaller than the tool's {1~0}. To cut it use a tool of {value-} or smaller."
             return (Finding("ARC_TIGHT", Severity.INFO, text, number, value=2.0 * small, lengths=(small, radius)),)
     return ()
 

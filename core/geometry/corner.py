@@ -12,12 +12,17 @@ from cmath import phase
 from dataclasses import dataclass, replace
 from enum import Enum, auto
 from math import asin, pi, sin, tan, tau
-from typing import NamedTuple
+from typing import Final, NamedTuple
 
 from core.geometry.carrier import carrier, meeting_points
 from core.geometry.construct import rotated
 from core.geometry.piece import ANGLE_ROUNDING, Arc, Line, Piece, Point, Turn, point_of
 from core.tolerance import JOINED, ON_PATH
+
+TRIED_RADII: Final = 32
+"""Radii, evenly spaced below one that does not fit, that are tried before the search for the largest that fits."""
+HALVINGS: Final = 48
+"""Bisections between a radius that fits and one that does not."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -42,7 +47,7 @@ class Reason(Enum):
 
 @dataclass(frozen=True, slots=True)
 class NoCorner:
-    """No fillet or chamfer is possible; `largest` is the largest size that fits, None if no formula gives it."""
+    """No fillet or chamfer is possible; `largest` is the largest size that fits, None if none was found."""
 
     reason: Reason
     largest: float | None = None
@@ -63,8 +68,30 @@ def fillet(before: Piece, after: Piece, radius: float) -> Corner | NoCorner:
     fits = [fit for turn in turns for fit in _touching(before, after, radius, turn)]
     if fits:
         return _cut(before, after, min(fits, key=lambda fit: fit.removed).arc)
-    largest = min(before.length, after.length) / tan(abs(turned) / 2) if lines else None
-    return NoCorner(Reason.TOO_LARGE, largest)
+    if lines:
+        return NoCorner(Reason.TOO_LARGE, min(before.length, after.length) / tan(abs(turned) / 2))
+    return NoCorner(Reason.TOO_LARGE, _largest_radius(before, after, radius))
+
+
+def _largest_radius(before: Piece, after: Piece, fails: float) -> float | None:
+    """Return the largest radius below one that fails at which an arc touches both pieces, None if none was found.
+
+    Between two arcs a radius may fit, a smaller one fail and a still smaller one fit again: several are tried first.
+    """
+
+    def fits(radius: float) -> bool:
+        return any(_touching(before, after, radius, turn) for turn in (Turn.CCW, Turn.CW))
+
+    clean = 0.0
+    for tried in (fails * share / TRIED_RADII for share in range(TRIED_RADII - 1, 0, -1)):
+        if fits(tried):
+            clean = tried
+            break
+        fails = tried
+    for _ in range(HALVINGS):
+        middle = (clean + fails) / 2.0
+        clean, fails = (middle, fails) if fits(middle) else (clean, middle)
+    return clean if clean > JOINED else None
 
 
 class _Fit(NamedTuple):

@@ -217,6 +217,25 @@ def test_two_nearly_equal_lengths_get_enough_digits(lengths, words):
     assert sentence(finding("{0~1} and {1~0}", lengths=lengths), IN) == words
 
 
+@pytest.mark.parametrize(
+    ("length", "unit", "words"),
+    [
+        (4.14278, MM, "4.142 to 4.143"),
+        (4.0, MM, "4.000 to 4.000"),
+        (3.9999999999, MM, "4.000 to 4.000"),
+        (10000.1 - 10000.0, MM, "0.100 to 0.100"),
+        (-4.14278, MM, "-4.143 to -4.142"),
+        (1.0, IN, "0.0393 to 0.0394"),
+        (25.4 * 0.7, IN, "0.7000 to 0.7000"),
+        (0.0004278, MM, "0.0004 to 0.001"),
+        (0.0, MM, "0.000 to 0.000"),
+        (inf, MM, "inf to inf"),
+    ],
+)
+def test_a_limit_is_rounded_so_that_the_number_typed_is_within_it(length, unit, words):
+    assert sentence(finding("{0-} to {0+}", lengths=(length,)), unit) == words
+
+
 def test_a_sentence_keeps_unknown_braces():
     assert sentence(finding("{odd} {0} {x} {} {value!r}"), IN) == "{odd} {0} {x} {} {value!r}"
 

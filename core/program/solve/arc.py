@@ -206,7 +206,7 @@ def _radius_sweep_center(axis: int, given: Given) -> Outcome:
     radius, value = given.known["radius"], given.known[_CENTER_FIELDS[axis]]
     centers = construct.on_circle(given.start, radius, axis, value)
     if isinstance(centers, OutOfReach):
-        text = f"RADIUS {{0~2}} does not reach {'XY'[axis]} CENTER {{1}}: it takes at least {{2~0}}."
+        text = f"RADIUS {{0~2}} does not reach {'XY'[axis]} CENTER {{1}}: it takes at least {{2+}}."
         return contradiction(text, "radius", radius, value, centers.least)
     return Outcome(
         tuple(_turned(given.turn, given.start, center, given.known["sweep"]) for center in points_of(centers))

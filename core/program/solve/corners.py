@@ -111,7 +111,7 @@ def _refused(refused: NoCorner, segment: CornerSegment, number: int, size: float
             text = f"No {noun} fits: segment {number + 1} goes straight back along segment {number - 1}."
             return _fault(segment, what, text)
         case Reason.TOO_LARGE if refused.largest is not None:
-            text = f"{what} {{value~0}} does not fit between {pair}: the largest that fits is {{0~value}}."
+            text = f"{what} {{value~0}} does not fit between {pair}: the largest that fits is {{0-}}."
             return _fault(segment, what, text, size, refused.largest)
         case Reason.TOO_LARGE:
             text = f"{what} {{value}} does not fit between {pair}: enter a smaller one."

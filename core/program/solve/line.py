@@ -57,7 +57,7 @@ def _long(axis: int, given: Given) -> Outcome:
     value, length = given.known[_END[axis]], given.known["length"]
     ends = construct.on_circle(given.start, length, axis, value)
     if isinstance(ends, OutOfReach):
-        text = f"XY LENGTH {{0~2}} does not reach {'XY'[axis]} END {{1}}: it takes at least {{2~0}}."
+        text = f"XY LENGTH {{0~2}} does not reach {'XY'[axis]} END {{1}}: it takes at least {{2+}}."
         return contradiction(text, "length", length, value, ends.least)
     return _lines(given.start, *points_of(ends))
 

@@ -85,7 +85,7 @@ async def test_a_half_typed_number_without_a_solution_keeps_its_text_and_undo_na
     assert user.value("radius") == "70"
     assert user.value("x_end") == ""
     await user.press("enter")
-    assert "RADIUS 70.000 does not fit between segments 1 and 3: the largest is 40.000." in user.prompt
+    assert "RADIUS 70.000 does not fit between segments 1 and 3: the largest is 39.999." in user.prompt
     await user.press("ctrl+z")
     assert user.prompt.startswith("Undone: RADIUS of segment 2, run 1-3, block 1.")
     assert user.value("y_end") == "10.000"

@@ -91,7 +91,12 @@ def test_two_arcs_are_blended():
 def test_an_arc_too_short_for_the_radius_is_refused():
     before = Line((-10.0, 0.0), (0.0, 0.0))
     after = Arc((0.0, 0.0), (0.1, 1.0), (5.0, 0.0), Turn.CW)
-    assert fillet(before, after, 3.0) == NoCorner(Reason.TOO_LARGE)
+    refused = fillet(before, after, 3.0)
+    assert isinstance(refused, NoCorner)
+    assert refused.reason is Reason.TOO_LARGE
+    assert refused.largest is not None
+    assert isinstance(fillet(before, after, refused.largest), Corner)
+    assert isinstance(fillet(before, after, refused.largest + 1e-6), NoCorner)
 
 
 def piece_from(corner: Point, heading: float, length: float, bend: float) -> Piece:

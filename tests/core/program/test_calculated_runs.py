@@ -171,7 +171,7 @@ BAD = [
      case_of(line(length=30), line(x_end=100, y_end=0, length=30))),
     ("TOO_SMALL", "RADIUS 10.000 cannot touch segment 1 and reach the end: it takes at least 15.000.",
      case_of(line(angle=0), ccw(tangent=True, radius=10, x_end=60, y_end=30))),
-    ("TOO_LARGE", "RADIUS 70.000 does not fit between segments 1 and 3: the largest is 40.000.",
+    ("TOO_LARGE", "RADIUS 70.000 does not fit between segments 1 and 3: the largest is 39.999.",
      case_of(line(angle=0), ccw(tangent=True, radius=70), line(tangent=True, angle=90, x_end=60, y_end=40))),
     ("INSIDE", "The point 45.000 20.000 lies inside the circle of segment 2: no line from it is tangent.",
      case_of(line(), ccw(tangent=True, x_center=50, y_center=20, radius=15, x_end=65, y_end=20), start=(45, 20))),
@@ -236,6 +236,16 @@ BAD = [
     ("PARALLEL_TO", "PARALLEL TO 2 is not before segment 2: enter the number of an earlier LINE.",
      case_of(line(x_end=5, y_end=5), line(parallel=2, x_end=9, y_end=0))),
 ]  # fmt: skip
+
+
+def test_the_largest_radius_that_is_named_works_and_the_next_does_not():
+    case = next(case for code, _, case in BAD if code == "TOO_LARGE")
+    line_before, arc_between, line_after = case["segments"]
+    works, fails = (
+        {**case, "segments": [line_before, {**arc_between, "radius": radius}, line_after]} for radius in (39.999, 40)
+    )
+    assert "TOO_LARGE" not in codes(solved(works))
+    assert "TOO_LARGE" in codes(solved(fails))
 
 
 @pytest.mark.parametrize(("code", "text", "case"), BAD, ids=[f"{code}-{at}" for at, (code, _, _) in enumerate(BAD)])

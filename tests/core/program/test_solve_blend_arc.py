@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from random import Random
+
 import pytest
 
 from core.geometry.piece import Arc, Line
@@ -9,7 +11,7 @@ from core.program.model import BlendSegment, LineSegment, Segment, Unread
 from core.program.solve.block import solve_block
 from core.program.solve.solved import Solved, SolvedBlock
 from core.units import Unit, sentence
-from tests.core.program.parts import arc, blend, line, postable, program
+from tests.core.program.parts import arc, blend, chamfer, line, postable, program
 
 
 def solved(*segments: Segment) -> SolvedBlock:
@@ -94,7 +96,7 @@ def test_a_blend_without_a_corner_is_refused():
 def test_a_blend_too_large_for_an_arc_is_refused():
     quarter = arc("CW", x_end=15.0, y_end=5.0, x_center=15.0, y_center=0.0)
     block = solved(RIGHT, blend(30.0), quarter)
-    words = "RADIUS 30.000 does not fit between segments 1 and 3: enter a smaller one."
+    words = "RADIUS 30.000 does not fit between segments 1 and 3: the largest that fits is 20.000."
     assert texts(block) == [f"BLEND_RADIUS 2 radius: {words}"]
 
 
@@ -122,3 +124,30 @@ def test_a_blend_without_a_radius_is_incomplete():
     unread = solved(RIGHT, BlendSegment(radius=Unread("x", "Type a number.")), UP)
     assert texts(unread) == ["UNREADABLE 2 radius: RADIUS: x cannot be read. Type a number."]
     assert unread.determined == 1
+
+
+def bent(random: Random, x: float, y: float) -> Segment:
+    """A line to a point, or an arc that begins there on the way from (10, 0)."""
+    if random.random() < 0.5:
+        return line(x_end=x, y_end=y)
+    middle, up = complex(10 + x, y) / 2, 1j * complex(x - 10, y) * random.uniform(-1, 1)
+    center = middle + up
+    return arc(
+        random.choice(("CW", "CCW")), x_end=x, y_end=y, x_center=round(center.real, 9), y_center=round(center.imag, 9)
+    )
+
+
+def test_the_largest_size_that_fits_a_corner_fits_when_it_is_typed_and_one_digit_more_does_not():
+    random, named = Random(7), 0
+    while named < 60:
+        after = bent(random, round(random.uniform(-5, 25), 3), round(random.uniform(-15, 15), 3))
+        for corner in (blend, chamfer):
+            told = [
+                finding for finding in solved(RIGHT, corner(40.0), after).every_finding if "largest" in finding.text
+            ]
+            if not told:
+                continue
+            named += 1
+            value = float(sentence(told[0], Unit.MM).removesuffix(".").split()[-1])
+            assert not texts(solved(RIGHT, corner(value), after)), (value, after)
+            assert texts(solved(RIGHT, corner(value + 0.001), after)), (value, after)

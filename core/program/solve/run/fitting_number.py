@@ -22,6 +22,9 @@ TRIED_FACTORS: Final = tuple(1.08**step for step in range(1, 60))
 HALVINGS: Final = 48
 """The number of times the interval between a radius that fits and one that does not is halved."""
 
+LIMIT_DECIMALS: Final = 6
+"""Decimals of a limit in millimeters: four of an inch and more."""
+
 ABOUT_RADIUS: Final = frozenset(
     ("TOO_SMALL", "BEHIND", "NO_TANGENT", "NO_MEETING", "NO_LENGTH_LEFT", "INSIDE", "WRONG_SENSE", "OUT_OF_RANGE")
 )
@@ -75,7 +78,10 @@ def _limit(run: Run, index: int) -> float | None:
         for sign in (1, -1):
             tried = radius * factor**sign
             if _fits(run, index, tried):
-                return _halved(run, index, last[sign], tried)
+                limit = _halved(run, index, last[sign], tried)
+                # with the tolerance of an answer even the round number beside the limit fits
+                even = round(limit, LIMIT_DECIMALS)
+                return even if search(_with_radius(run, index, even)).answers else limit
             last[sign] = tried
     return None
 
@@ -87,10 +93,13 @@ def _halved(run: Run, index: int, bad: float, good: float) -> float:
     return good
 
 
-def _fits(run: Run, index: int, radius: float) -> bool:
+def _with_radius(run: Run, index: int, radius: float) -> Run:
     element = run.elements[index]
     typed = tuple((name, radius if name == "radius" else value) for name, value in element.typed)
-    elements = (*run.elements[:index], replace(element, typed=typed), *run.elements[index + 1 :])
+    return replace(run, elements=(*run.elements[:index], replace(element, typed=typed), *run.elements[index + 1 :]))
+
+
+def _fits(run: Run, index: int, radius: float) -> bool:
     # near the limit, count only answers that need no tolerance
-    answers = search.__wrapped__(replace(run, elements=elements)).answers
+    answers = search.__wrapped__(_with_radius(run, index, radius)).answers
     return any(answer.choice < 1 << GRAZE_SHIFT for answer in answers)

@@ -201,7 +201,7 @@ def _line_misses(before: Element, after: Element, line: OrientedLine, circle: Ci
         return _fault("NO_MEETING", text, arc, "radius", height, circle.radius)
     element = next((element for element in (after, before) if "length" in element.known), after)
     field = "radius" if element.turn else "length"
-    text = f"{label(element, field)} {{0~1}} does not reach: it takes at least {{1~0}}."
+    text = f"{label(element, field)} {{0~1}} does not reach: it takes at least {{1+}}."
     return _fault("TOO_SHORT", text, element, field, circle.radius, height)
 
 
@@ -264,14 +264,14 @@ def radius_limit(run: Run, index: int, limit: float, *, least: bool) -> Finding:
     if least:
         touched = f"touch segment {before}" if before is not None else "leave its start"
         reached = f"segment {after}" if after is not None else "the end"
-        text = f"RADIUS {{0~1}} cannot {touched} and reach {reached}: it takes at least {{1~0}}."
+        text = f"RADIUS {{0~1}} cannot {touched} and reach {reached}: it takes at least {{1+}}."
         return _fault("TOO_SMALL", text, element, "radius", radius, limit)
     numbers = [number for number in (before, after) if number is not None]
     if len(numbers) == 2:
         where = f"between segments {numbers[0]} and {numbers[1]}"
     else:
         where = f"beside segment {numbers[0]}" if numbers else "between its ends"
-    text = f"RADIUS {{0~1}} does not fit {where}: the largest is {{1~0}}."
+    text = f"RADIUS {{0~1}} does not fit {where}: the largest is {{1-}}."
     return _fault("TOO_LARGE", text, element, "radius", radius, limit)
 
 
