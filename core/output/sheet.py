@@ -61,6 +61,7 @@ class Sheet:
     """A whole sheet.  `errors` say why the program must not run as it is, and are empty if it is ready.
 
     `notes` say, block by block, what is not cut as drawn: segments that the look-ahead deletes, and what stays uncut.
+    `warnings` is the sentence that counts the warnings and says under which blocks they are, empty if there are none.
     """
 
     title: str
@@ -69,13 +70,16 @@ class Sheet:
     tools: Section
     blocks: tuple[Section, ...]
     notes: tuple[str, ...] = ()
+    warnings: str = ""
 
     @property
     def verdict(self) -> tuple[str, tuple[str, ...]]:
         """The line that says whether the program is ready, and the sentences below it."""
+        warnings = (self.warnings,) if self.warnings else ()
         if self.errors:
-            return NOT_READY_TEXT, self.errors
-        return (READY_BUT_TEXT, self.notes) if self.notes else (READY_TEXT, ())
+            return NOT_READY_TEXT, (*self.errors, *warnings)
+        notes = (*warnings, *self.notes)
+        return (READY_BUT_TEXT, notes) if notes else (READY_TEXT, ())
 
 
 def sheet(jobs: Sequence[Job], unit: Unit, program: str, part: str = "", day: str = "") -> Sheet:
@@ -91,7 +95,21 @@ def sheet(jobs: Sequence[Job], unit: Unit, program: str, part: str = "", day: st
     head = (*head, *_times(jobs, unit))
     errors = dict.fromkeys(located_sentence(error, unit) for error in posting_errors(jobs, Grid(unit), override=None))
     notes = tuple(f"Block {job.block}: {note}" for job in jobs for note in job.notes)
-    return Sheet(program, head, tuple(errors), _tools(jobs, unit), tuple(_block(job, unit) for job in jobs), notes)
+    blocks = tuple(_block(job, unit) for job in jobs)
+    return Sheet(program, head, tuple(errors), _tools(jobs, unit), blocks, notes, _warnings(jobs))
+
+
+def _warnings(jobs: Sequence[Job]) -> str:
+    """Return how many warnings there are and under which blocks: `3 warnings: see FINDINGS of blocks 1 (2), 3 (1).`."""
+    counts = {job.block: sum(finding.severity is Severity.WARNING for finding in job.findings) for job in jobs}
+    counts = {block: count for block, count in counts.items() if count}
+    if not counts:
+        return ""
+    total = sum(counts.values())
+    warnings = f"{total} warning{'' if total == 1 else 's'}: see FINDINGS of block"
+    if len(counts) == 1:
+        return f"{warnings} {next(iter(counts))}."
+    return f"{warnings}s {', '.join(f'{block} ({count})' for block, count in counts.items())}."
 
 
 def _times(jobs: Sequence[Job], unit: Unit) -> Iterator[Pair]:
@@ -208,8 +226,8 @@ def as_text(sheet: Sheet) -> str:
     """Return the sheet as plain text, each line ended by a line feed."""
     lines = ["SETUP SHEET", "=" * PAGE_COLUMNS, *_text_pairs(sheet.head), ""]
     first, rest = sheet.verdict
-    mark = "!!" if sheet.errors else "!"
-    lines += [first, *(line for text in rest for line in _wrapped(f"{mark} {text}"))]
+    marked = (f"{'!!' if text in sheet.errors else '!'} {text}" for text in rest)
+    lines += [first, *(line for text in marked for line in _wrapped(text))]
     for section in (sheet.tools, *sheet.blocks):
         lines += ["", section.title, "-" * PAGE_COLUMNS, *_text_section(section)]
     return "\n".join(plain(line).rstrip() for line in lines) + "\n"

@@ -9,7 +9,16 @@ from core.comp.compensated import CenterPath
 from core.finding import Finding, Severity
 from core.geometry.piece import Turn
 from core.output.passes import Cutter, Job
-from core.output.sheet import NOT_READY_TEXT, PAGE_COLUMNS, READY_TEXT, Sheet, as_page, as_text, sheet
+from core.output.sheet import (
+    NOT_READY_TEXT,
+    PAGE_COLUMNS,
+    READY_BUT_TEXT,
+    READY_TEXT,
+    Sheet,
+    as_page,
+    as_text,
+    sheet,
+)
 from core.program.model import Coolant
 from core.units import Unit
 from tests.core.output.jobs import INCH, arc, floors, job, path_of, polyline
@@ -55,6 +64,28 @@ def test_a_block_lists_its_settings():
     assert values["SPEED"] == "300 RPM"
     assert values["PLUNGE FEED"] == "20.0"
     assert values["FEEDS"] == "10.0 (segment 1)"
+
+
+def warned(block: int, *severities: Severity) -> Job:
+    """A slot with findings of these severities."""
+    findings = tuple(Finding(f"F{at}", severity, f"Finding {at}.") for at, severity in enumerate(severities))
+    return replace(SLOT, block=block, findings=findings)
+
+
+def test_ready_says_on_top_how_many_warnings_there_are_and_where():
+    one = as_text(sheet_of(warned(1, Severity.WARNING, Severity.INFO)))
+    assert f"{READY_BUT_TEXT}\n  ! 1 warning: see FINDINGS of block 1.\n" in one
+    two, three = warned(1, Severity.WARNING, Severity.WARNING), warned(3, Severity.WARNING)
+    setup_sheet = sheet_of(two, warned(2, Severity.INFO), three)
+    text = "3 warnings: see FINDINGS of blocks 1 (2), 3 (1)."
+    assert f"{READY_BUT_TEXT}\n  ! {text}\n" in as_text(setup_sheet)
+    assert f"<li>{text}</li>" in as_page(setup_sheet, [""] * 3)
+    assert READY_TEXT in as_text(sheet_of(warned(1, Severity.INFO)))
+
+
+def test_not_ready_counts_the_warnings_after_the_errors():
+    text = as_text(sheet_of(warned(1, Severity.ERROR, Severity.WARNING)))
+    assert f"{NOT_READY_TEXT}\n  !! Block 1: Finding 0.\n  ! 1 warning: see FINDINGS of block 1.\n" in text
 
 
 def test_the_passes_have_the_posted_depths():
@@ -183,7 +214,8 @@ def test_a_whole_sheet_is_written_as_text():
         "TIME               cut 2:07, rapid 0:08, total 2:15",
         "RAPID RATE         200.0 a minute, assumed, not typed",
         "",
-        "READY to post.",
+        "READY to post. Know before you run it:",
+        "  ! 1 warning: see FINDINGS of block 1.",
         "",
         "TOOLS",
         "------------------------------------------------------------------------------",
@@ -247,7 +279,7 @@ def test_a_whole_sheet_is_written_as_text():
 def test_a_whole_sheet_is_written_as_a_page():
     lines = as_page(sheet(two_blocks(), Unit.IN, "slot"), ["<svg/>", ""]).splitlines()
     assert lines[0] == "<!DOCTYPE html>"
-    assert lines[lines.index("<h1>Setup sheet: slot</h1>") :][:52] == [
+    assert lines[lines.index("<h1>Setup sheet: slot</h1>") :][:54] == [
         "<h1>Setup sheet: slot</h1>",
         "<table>",
         "<tr><th>PROGRAM</th><td>slot</td></tr>",
@@ -259,7 +291,9 @@ def test_a_whole_sheet_is_written_as_a_page():
         "<tr><th>TIME</th><td>cut 2:07, rapid 0:08, total 2:15</td></tr>",
         "<tr><th>RAPID RATE</th><td>200.0 a minute, assumed, not typed</td></tr>",
         "</table>",
-        '<p class="good">READY to post.</p>',
+        '<div class="good">READY to post. Know before you run it:<ul>',
+        "<li>1 warning: see FINDINGS of block 1.</li>",
+        "</ul></div>",
         "<section><h2>TOOLS</h2>",
         "</section>",
         '<table class="tools">',
