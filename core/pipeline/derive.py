@@ -18,7 +18,7 @@ from core.advice.path_findings import (
     turning_back,
     z_step_findings,
 )
-from core.advice.remedies import largest_tool
+from core.advice.remedies import largest_tool, without_blends
 from core.advice.why_not_clean import advice_for
 from core.comp.best_path.best_path import BestPath, best_path
 from core.comp.best_path.separation import separation
@@ -229,7 +229,7 @@ def advice_for_block(
 def remedy_for_gouge(block: DerivedBlock, program: Program) -> Finding | None:
     """Return what cuts a gouging block clean: the look-ahead that the table recommends, else the largest fitting tool.
 
-    None if the block does not gouge, and if neither helps.
+    None if the block does not gouge, if only its blend arcs do, which their findings mend, and if neither helps.
     """
     setup = cutting_setup(block, program)
     if setup is None or not any(finding.code in OVERRIDABLE_CODES for finding in block.errors):
@@ -239,6 +239,8 @@ def remedy_for_gouge(block: DerivedBlock, program: Program) -> Finding | None:
         effect, lengths = table.row(table.recommended).effect
         text = f"Block {block.number}: CUTCOMP LOOKAHEAD {table.recommended} {effect}."
         return Finding("LOOKAHEAD_FITS", Severity.INFO, text, field="lookahead", lengths=lengths)
+    if setup.blend and judge_lookaheads(without_blends(setup)).row(block.lookahead.value).clean:
+        return None
     fits = largest_tool(setup)
     if fits is None:
         return None

@@ -9,8 +9,9 @@ from random import Random
 import pytest
 
 from core.finding import Severity
-from core.pipeline.derive import derive
+from core.pipeline.derive import derive, remedy_for_gouge
 from core.pipeline.derived import DerivedBlock
+from core.pipeline.setup_sheet import sheet_text
 from core.program.model import (
     ArcSegment,
     CutterComp,
@@ -101,6 +102,14 @@ def test_a_hole_names_the_value_and_typing_it_works_but_one_more_digit_does_not(
     assert located_sentence(first, Unit.MM).endswith(fits)
     assert is_clean(typed(program, 1.0))
     assert not is_clean(typed(program, 1.001))
+
+
+def test_the_tool_is_not_called_too_big_where_only_the_blend_arcs_are() -> None:
+    program = hole(6, parameters_of(3, 3))
+    assert remedy_for_gouge(typed(program, 3.0), program) is None
+    text = sheet_text(derive(program), name="hole", day="")
+    assert "the largest that fits here is" in text
+    assert "too big" not in text
 
 
 def test_a_value_with_more_digits_than_the_form_may_only_lose_them() -> None:
