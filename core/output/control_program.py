@@ -16,6 +16,7 @@ from core.controls.write.iso_program import Frame, offsets
 from core.controls.write.iso_style import STYLE_OF_CONTROL, Radius
 from core.controls.write.written_program import Posted, Refusal, write_program
 from core.finding import Finding, Severity
+from core.output.ascii_text import in_ascii
 from core.output.grid import Grid
 from core.output.nc import comments, program_titles
 from core.output.objections import posting_errors
@@ -61,11 +62,13 @@ def control_program(
     def remarks(notes: Sequence[Finding]) -> Sequence[str]:
         # a semicolon would end the block even inside a comment, or begin another comment
         texts = (*program_titles(name, part), *_header(jobs, cuts, unit, control, notes))
-        lines = [line for text in texts for line in comments(text.replace(";", ","))]
+        lines = [line for text in texts for line in comments(in_ascii(text).replace(";", ","))]
         return [line[1:-1] for line in lines] if is_klartext(control) else lines
 
     # a name that every control accepts: letters, digits, a dash
-    short_name = "".join(sign if sign.isascii() and (sign.isalnum() or sign in "-_") else "-" for sign in name)[:24]
+    short_name = "".join(
+        sign if sign.isascii() and (sign.isalnum() or sign in "-_") else "-" for sign in in_ascii(name)
+    )[:24]
     frame = Frame(unit, jobs[0].work_offset)
     written = write_program(cuts, control, frame, short_name or "PART", remarks)
     if isinstance(written, Refusal):

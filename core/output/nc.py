@@ -21,6 +21,7 @@ from core.controls.write.iso_program import CORNER_TOLERANCE, speed_text
 from core.controls.write.written_program import Posted, Refusal
 from core.finding import Finding
 from core.geometry.piece import Arc, Turn
+from core.output.ascii_text import in_ascii
 from core.output.grid import EXTRA_CENTER_DECIMALS, Grid, arc_parts, feed_text
 from core.output.objections import OVERRIDE_PHRASE, overridable_errors, posting_errors
 from core.output.passes import Cutter, Job, Pass, at_one_safe_z, clear_height, passes
@@ -32,9 +33,7 @@ COMMENT_WIDTH: Final = 72
 ACTIVE: Final = re.compile(r"\s*[A-Za-z_]+\s*,")
 """A comment that begins like this is a command to some controls: (MSG, ...), (LOGOPEN, ...), (PY, ...)."""
 AXIS_AND_NUMBER: Final = re.compile(r"\b([XYZ]) (?=[-.\d])")
-COMMENT_REPLACEMENTS: Final = str.maketrans(
-    {"(": "[", ")": "]", "%": " PERCENT", "\u00b0": " DEG", "\u2013": "-", "\u2212": "-"}
-)
+COMMENT_REPLACEMENTS: Final = str.maketrans({"(": "[", ")": "]", "%": " PERCENT"})
 
 
 def comments(text: str) -> Iterator[str]:
@@ -42,7 +41,7 @@ def comments(text: str) -> Iterator[str]:
 
     A line never ends between an axis and its number.
     """
-    plain = text.translate(COMMENT_REPLACEMENTS).encode("ascii", "replace").decode("ascii")
+    plain = in_ascii(text).translate(COMMENT_REPLACEMENTS)
     spaced = "".join(character if character.isprintable() else " " for character in plain)
     unbroken = AXIS_AND_NUMBER.sub(r"\1\0", spaced)
     for line in (part.replace("\0", " ") for part in wrap(unbroken, COMMENT_WIDTH)):

@@ -223,13 +223,23 @@ def test_a_part_name_that_a_control_cannot_hold_is_reported() -> None:
     [
         ("key_way-1", "key_way-1"),
         ("key way/1", "key-way-1"),
-        ("Nut \u00f8", "Nut--"),
+        ("Nut \u00f8", "Nut-o"),
+        ("Gehäuse", "Gehaeuse"),
+        ("Nut \u90e8", "Nut--"),
         ("", "PART"),
         ("a" * 30, "a" * 24),
     ],
 )
 def test_the_program_name_is_made_acceptable_to_the_control(name: str, short: str) -> None:
     assert posted("klartext", name=name).text.startswith(f"0 BEGIN PGM {short} INCH\n")
+
+
+@pytest.mark.parametrize("control", ["linuxcnc", "klartext", "nine-series:b"])
+def test_no_sign_that_stands_for_another_ends_a_comment(control: str) -> None:
+    wild = "a\u037eG0 Z-9 \uff1bb \ufe54c \uff09d \uff05e"
+    lines = [line for line in posted(control, part=wild).text.splitlines() if "PART" in line]
+    title = "PART a,G0 Z-9 ,b ,c ]d  PERCENTe"
+    assert [line.partition("PART")[1] + line.partition("PART")[2].removesuffix(")") for line in lines] == [title]
 
 
 def test_a_program_without_blocks_is_refused() -> None:
