@@ -28,7 +28,6 @@ from app.screens.contour_cells import (
 )
 from app.screens.dialogs import ChooseLine
 from app.screens.enter_stops import next_stop, run_lacks, run_stops, unanswered
-from app.screens.field_texts import prompt_of
 from app.screens.form_screen import FormScreen
 from app.session.block_findings import TO_TYPE, WAITING_CODES, Entry, block_findings, remedy
 from app.session.guide import on_form
@@ -484,7 +483,7 @@ class ContourScreen(FormScreen):
                     return Sentence(text, Tone.ERROR)
                 return Sentence(self._with_prompt(text, field) or text, Tone.WARNING)
         advice = "" if self.on_segment else remedy(session.lookahead_table, field.name, session.program.unit)
-        return Sentence(advice, Tone.WARNING) if advice else self._run_sentence(prompt_of(field), field)
+        return Sentence(advice, Tone.WARNING) if advice else self._run_sentence(self.prompt_of(field), field)
 
     def _or_later(self, finding: Finding) -> str:
         """Return a hint that the next segment may determine this one; empty if it does not apply."""
@@ -521,7 +520,7 @@ class ContourScreen(FormScreen):
 
     def _with_prompt(self, text: str, field: Field) -> str:
         """Return a field's prompt and then a text, if both fit the two lines of the prompt; else an empty text."""
-        for both in (f"{prompt_of(field)}\n{text}", f"{prompt_of(field)} {text}"):
+        for both in (f"{self.prompt_of(field)}\n{text}", f"{self.prompt_of(field)} {text}"):
             if sum(len(wrap(line, self.size.width - 2)) for line in both.split("\n")) <= 2:
                 return both
         return ""

@@ -85,6 +85,7 @@ def unread_text(unread: Unread, field: Field, unit: Unit) -> str:
     return unread_sentence(unread)
 
 
-def prompt_of(field: Field) -> str:
-    """Return the field's prompt; for a choice, add the choices and how to pick one."""
-    return f"{field.prompt} Letters pick {', '.join(field.choices)}." if field.choices else field.prompt
+def prompt_of(field: Field, *, narrow: bool = False) -> str:
+    """Return the field's prompt, the short one if `narrow`; for a choice, add the choices and how to pick one."""
+    prompt = (narrow and field.short_prompt) or field.prompt
+    return f"{prompt} Letters pick {', '.join(field.choices)}." if field.choices else prompt

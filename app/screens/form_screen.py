@@ -347,11 +347,15 @@ class FormScreen(BaseScreen):
         if field is None or widget is None:
             return Sentence("")
         if isinstance(widget, NumberField) and widget.edited:
-            return self._half_typed(widget, field) or Sentence(prompt_of(field))
+            return self._half_typed(widget, field) or Sentence(self.prompt_of(field))
         held = unusable(self.value(field.name), field, self.current_session.program.unit)
         if held is not None:
             return Sentence(held, Tone.ERROR)
-        return self.trouble(field) or Sentence(prompt_of(field))
+        return self.trouble(field) or Sentence(self.prompt_of(field))
+
+    def prompt_of(self, field: Field) -> str:
+        """Return the field's prompt as this screen has room for it."""
+        return prompt_of(field, narrow=self.has_class("-narrow"))
 
     def _half_typed(self, widget: NumberField, field: Field) -> Sentence | None:
         """Return a note that the text is not a number yet and which value is still in use."""

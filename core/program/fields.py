@@ -7,7 +7,7 @@ A field's `name` is its attribute in the model and its key in the program file.
 from __future__ import annotations
 
 from collections.abc import Iterable, Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from enum import StrEnum
 from math import isfinite
 from typing import Final
@@ -49,6 +49,8 @@ class Field:
     """An exclusive lower bound, such as 0 for a diameter."""
     relative: bool = False
     """True if an I before or after the number makes it relative."""
+    short_prompt: str = ""
+    """What stands for a prompt that is too long for two lines of 60 columns."""
 
 
 class Form(StrEnum):
@@ -78,6 +80,7 @@ LOOKAHEAD_PROMPT: Final = (
     "Enter a cutter comp lookahead value to override the calculated value. Not recommended unless necessary. "
     "1 to 20. F3 goes back to CAL."
 )
+SHORT_LOOKAHEAD_PROMPT: Final = "1 to 20 in place of the calculated value. Not recommended unless necessary. F3: CAL."
 
 
 def _place(name: str, label: str, prompt: str, *, relative: bool = False) -> Field:
@@ -134,7 +137,7 @@ START: Final = (
     _feed("plunge_feed", "PLUNGE FEED", "Plunge feed."),
     _count("speed", "SPEED (RPM)", "Spindle speed, revolutions per minute.", 1, LARGEST_SPEED),
     _allowance("peck_depth", "PECK DEPTH", "Depth of one pass; 0 = full depth."),
-    _count("lookahead", "CUTCOMP LOOKAHEAD", LOOKAHEAD_PROMPT, 1, 20),
+    replace(_count("lookahead", "CUTCOMP LOOKAHEAD", LOOKAHEAD_PROMPT, 1, 20), short_prompt=SHORT_LOOKAHEAD_PROMPT),
     _coolant("Coolant of the block. Del blanks it: as TOOL SETUP has it for the tool."),
 )
 
