@@ -16,6 +16,7 @@ from textual.widgets import DataTable, Label, OptionList
 from textual.widgets.option_list import Option
 
 from app.documents.tool_tables import tool_line
+from app.screens.block_actions import COPY_AND_MOVE, INSERT_AND_DELETE, BlockActions
 from app.screens.contour_cells import (
     RIGHT_COLUMN,
     cells_at,
@@ -105,7 +106,7 @@ class SegmentField(NumberField):
     letters = "".join(NEW_SEGMENTS)
 
 
-class ContourScreen(FormScreen):
+class ContourScreen(BlockActions, FormScreen):
     """The form of one block; the cursor is on SEGMENT or in a field."""
 
     BINDINGS: ClassVar[list[BindingType]] = [
@@ -140,6 +141,11 @@ class ContourScreen(FormScreen):
         Softkey("EXIT to program", "app.program", "EXIT"),
     )
     MORE_KEYS: ClassVar[tuple[tuple[str, str], ...]] = (("F9", "SEGMENTS"), ("F10", "FINDINGS"), ("?", "KEYS, HELP"))
+    PALETTE_ACTIONS: ClassVar[tuple[tuple[str, str, str], ...]] = (
+        *FormScreen.PALETTE_ACTIONS,
+        *COPY_AND_MOVE,
+        *INSERT_AND_DELETE,
+    )
 
     def __init__(self) -> None:
         super().__init__()

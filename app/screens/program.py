@@ -13,7 +13,7 @@ from textual.content import Content
 from textual.widgets import DataTable, Label, OptionList
 
 from app.documents.folder_list import outcome_of
-from app.screens.base import BaseScreen
+from app.screens.block_actions import COPY_AND_MOVE, BlockActions
 from app.session.block_findings import block_findings
 from app.session.derivation import times_in_words
 from app.session.formats import counted
@@ -27,14 +27,13 @@ from app.widgets.row_table import RowTable
 from app.widgets.softkeys import Softkey
 from app.widgets.verdict import MARKS_OF_CHARACTERS, Marks, verdict_word
 from core.pipeline.derived import Derived, DerivedBlock
-from core.program.edit import SEGMENT_FIELD, FormPlace, copy_block, delete_block, insert_block, move_block
-from core.program.model import Number, Program
-from core.units import Kind, show
+from core.program.edit import SEGMENT_FIELD, FormPlace
+from core.program.model import Number
 
 COLUMNS = (("BLOCK", 5), ("KIND", 12), ("CUTTER COMP.", 13), ("TOOL", 4), ("SEG", 3), ("VERDICT", 11))
 
 
-class ProgramScreen(BaseScreen):
+class ProgramScreen(BlockActions):
     """The list of blocks; Enter edits the block with the cursor."""
 
     AUTO_FOCUS: ClassVar[str | None] = "#blocks"
@@ -61,11 +60,7 @@ class ProgramScreen(BaseScreen):
         ("?", "KEYS, HELP"),
     )
     PROMPT: ClassVar[str] = "Enter edits the block. C copies it, Ctrl+Up and Ctrl+Down move it."
-    PALETTE_ACTIONS: ClassVar[tuple[tuple[str, str, str], ...]] = (
-        ("COPY BLOCK", "screen.copy_block", "C"),
-        ("MOVE BLOCK UP", "screen.move_block(-1)", "Ctrl+Up"),
-        ("MOVE BLOCK DOWN", "screen.move_block(1)", "Ctrl+Down"),
-    )
+    PALETTE_ACTIONS: ClassVar[tuple[tuple[str, str, str], ...]] = COPY_AND_MOVE
 
     def __init__(self) -> None:
         super().__init__()
@@ -156,40 +151,7 @@ class ProgramScreen(BaseScreen):
 
     @on(DataTable.RowSelected)
     def _edit_block(self, event: DataTable.RowSelected) -> None:
-        self._edit(event.cursor_row + 1)
-
-    def _edit(self, number: int, field: str = SEGMENT_FIELD) -> None:
-        self.host.move(FormPlace(number), field)
-        self.app.call_later(self.app.run_action, "app.contour")
-
-    def action_insert_block(self) -> None:
-        """Insert a block after the one with the cursor and open its form."""
-        at = self.chosen + 1
-        if self.host.apply(insert_block(self.current_session.program, at), f"INSERT BLOCK {at}"):
-            self._edit(at, "tool")
-            self.notify(depths_kept(self.current_session.program, at), timeout=6)
-
-    def action_delete_block(self) -> None:
-        """Delete the block with the cursor."""
-        at = self.chosen
-        if self.host.apply(delete_block(self.current_session.program, at), f"DELETE BLOCK {at}"):
-            self.notify(f"Deleted block {at}. Ctrl+Z brings it back.", timeout=3)
-
-    def action_copy_block(self) -> None:
-        """Insert a copy of the block with the cursor after it."""
-        at = self.chosen
-        if self.host.apply(copy_block(self.current_session.program, at), f"COPY BLOCK {at}"):
-            self.host.move(FormPlace(at + 1))
-
-    def action_move_block(self, by: int) -> None:
-        """Move the block with the cursor up or down by one."""
-        at, to = self.chosen, self.chosen + by
-        if not 1 <= to <= len(self.current_session.program.blocks):
-            self.say(f"Block {at} is the {'first' if by < 0 else 'last'} one.")
-        elif self.host.apply(
-            move_block(self.current_session.program, at, to), f"MOVE BLOCK {at} {'UP' if by < 0 else 'DOWN'}"
-        ):
-            self.host.move(FormPlace(to))
+        self.edit_block(event.cursor_row + 1, SEGMENT_FIELD)
 
 
 def _row(block: DerivedBlock, marks: Marks) -> tuple[Content, ...]:
@@ -197,11 +159,3 @@ def _row(block: DerivedBlock, marks: Marks) -> tuple[Content, ...]:
     texts = (str(block.number), "MILL CONTOUR", str(block.block.cutter_comp), tool, str(len(block.block.segments)))
     verdict = verdict_word(outcome_of(block), marks) if block.complete else Content("...")
     return (*(Content(text) for text in texts), verdict)
-
-
-def depths_kept(program: Program, at: int) -> str:
-    """Return what new block `at` has taken from the block before it, with the depths, as its cut may be shallower."""
-    block, unit = program.blocks[at - 1], program.unit
-    fields = (("Z BOTTOM", block.z_bottom), ("PECK DEPTH", block.peck_depth))
-    depths = [f"{name} {show(typed.value, Kind.LENGTH, unit)}" for name, typed in fields if isinstance(typed, Number)]
-    return f"Tool, feeds and depths as in block {at - 1}{': ' if depths else ''}{', '.join(depths)}."

@@ -2,17 +2,18 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from threading import Event
 
 import pytest
 from textual.events import AppBlur, AppFocus
 from textual.widgets import DataTable, OptionList
 
+from app.screens.block_actions import depths_kept
 from app.screens.contour import ContourScreen
 from app.screens.dialogs import Question
 from app.screens.lookahead import LookaheadScreen
 from app.screens.palette import Palette
-from app.screens.program import depths_kept
 from app.session.block_findings import block_findings
 from app.session.derivation import derived
 from app.session.work import Work
@@ -133,6 +134,57 @@ async def test_a_choice_can_be_typed_stepped_or_listed(user: Operator):
     assert user.prompt == "Q is not a choice. Left and right change it."
     await user.press("'right", "ctrl+z", "5")
     assert user.prompt == "5 is not a choice. Left and right change it."
+
+
+async def from_palette(user: Operator, words: str) -> None:
+    """Run an action by its name."""
+    await user.press("ctrl+k", *("space" if sign == " " else f"'{sign}" for sign in words))
+    await user.press("enter")
+
+
+async def test_the_block_actions_of_program_are_on_mill_contour_too(user: Operator):
+    first = user.session.program.blocks[0]
+    await user.begin("pocket", 3, "x_end")
+    await from_palette(user, "copy block")
+    assert list(user.session.program.blocks) == [first, first]
+    assert (type(user.screen).__name__, user.session.place) == ("ContourScreen", FormPlace(2, 0))
+    assert user.prompt == "Block 2 is a copy of block 1."
+    await user.press("ctrl+z")
+    assert list(user.session.program.blocks) == [first]
+    await from_palette(user, "insert block")
+    assert (user.session.place, user.at) == (FormPlace(2, 0), "tool")
+    await from_palette(user, "move block up")
+    assert user.session.program.blocks[1] == first
+    assert (user.session.place, user.prompt) == (FormPlace(1, 0), "Block 2 is block 1 now.")
+    await from_palette(user, "move block up")
+    assert user.prompt == "Block 1 is the first one."
+    await from_palette(user, "delete block")
+    assert list(user.session.program.blocks) == [first]
+    await from_palette(user, "delete block")
+    assert "The only block cannot be deleted" in user.prompt
+
+
+async def test_a_copied_block_leaves_out_a_segment_that_is_still_empty(user: Operator):
+    first = user.session.program.blocks[0]
+    await user.press("ctrl+end", "right")
+    assert len(user.session.block.segments) == len(first.segments) + 1
+    await from_palette(user, "copy block")
+    assert list(user.session.program.blocks) == [first, first]
+
+
+async def test_a_half_typed_number_is_taken_before_its_block_is_copied(user: Operator):
+    first = user.session.program.blocks[0]
+    typed = replace(first, x_start=Number(2.5))
+    await user.begin("pocket", 0, "x_start")
+    await user.press("'2", "'.", "'5")
+    await from_palette(user, "copy block")
+    assert list(user.session.program.blocks) == [typed, typed]
+    await user.press("ctrl+z", "ctrl+z")
+    await user.begin("pocket", 0, "x_start")
+    await user.press("'2", "'x")
+    await from_palette(user, "delete block")
+    assert len(user.session.program.blocks) == 1
+    assert "2x cannot be read" in user.prompt
 
 
 async def test_a_new_block_keeps_tool_feeds_and_depths(user: Operator):
