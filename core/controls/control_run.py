@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections import Counter
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field, replace
-from typing import Final, NamedTuple, NoReturn
+from typing import Final, NamedTuple, NoReturn, Protocol
 
 from core.controls.control_tools import ToolId
 from core.controls.moves import Moves, Plane
@@ -138,6 +138,25 @@ class ControlRun:
         return self.stopped_at is not None and stretch.last == len(self.moves)
 
 
+class Place(Protocol):
+    """Where a finding is: anything with a line and a column of the program, such as a block or an element."""
+
+    @property
+    def line(self) -> int:
+        """The line, from 1."""
+
+    @property
+    def column(self) -> int:
+        """The column, from 1."""
+
+
+class Spot(NamedTuple):
+    """A place of its own."""
+
+    line: int
+    column: int = 1
+
+
 class AlarmError(Exception):
     """Stops the control; caught where the program is run, never seen outside."""
 
@@ -198,32 +217,39 @@ class Log:
         severity: Severity,
         code: str,
         text: str,
-        line: int | None = None,
-        column: int | None = None,
+        place: Place,
         *,
         lengths: tuple[float, ...] = (),
+        value: float | None = None,
     ) -> None:
         """Keep a finding with these values; the control continues."""
-        self.add(Finding(code, severity, text, lengths=lengths, line=line, column=column))
+        self.add(Finding(code, severity, text, lengths=lengths, value=value, line=place.line, column=place.column))
+
+    def inform(self, code: str, text: str, place: Place, *, lengths: tuple[float, ...] = ()) -> None:
+        """Keep a note."""
+        self.report(Severity.INFO, code, text, place, lengths=lengths)
+
+    def warn(self, code: str, text: str, place: Place, *, lengths: tuple[float, ...] = ()) -> None:
+        """Keep a warning."""
+        self.report(Severity.WARNING, code, text, place, lengths=lengths)
 
     def stop(
         self,
         code: str,
         text: str,
-        line: int | None = None,
-        column: int | None = None,
+        place: Place,
         *,
         lengths: tuple[float, ...] = (),
         at: tuple[float, float] | None = None,
         stops_at: int | None = None,
         tool: ToolId | None = None,
     ) -> NoReturn:
-        """Stop the control with an alarm, at the finding's line unless another is given.
+        """Stop the control with an alarm, at the line of its place unless another is given.
 
         `tool` is the one whose size is missing.
         """
-        code = self.rule_names.get(code, code)
-        finding = Finding(code, Severity.ERROR, text, at=at, lengths=lengths, line=line, column=column, tool=tool)
+        code, line = self.rule_names.get(code, code), place.line
+        finding = Finding(code, Severity.ERROR, text, at=at, lengths=lengths, line=line, column=place.column, tool=tool)
         raise AlarmError(finding, stops_at or line)
 
     def all_findings(self) -> tuple[Finding, ...]:

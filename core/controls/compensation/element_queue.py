@@ -13,7 +13,7 @@ from typing import Final
 from core.controls.compensation.corner_rules import CornerKind, CornerRules, Inside, Joint, join
 from core.controls.compensation.elements import Element, element_sweep, fits, offset_end, runs_back, sweep
 from core.controls.compensation.recorder import Recorder
-from core.controls.control_run import Log
+from core.controls.control_run import Log, Place
 from core.controls.moves import Plane, Point3, flat, solid
 from core.geometry.piece import Point
 from core.units import Unit
@@ -141,10 +141,10 @@ class OneMoveQueue(ElementQueue):
         self.nose = (direction[0] * abs(offset), direction[1] * abs(offset))
         self.active = self.first = True
 
-    def turn_off(self, line: int) -> None:
+    def turn_off(self, place: Place) -> None:
         """G40: run the held move to its offset point."""
         if self.active and self.offset and not self.first:
-            self._run_out(line)
+            self._run_out(place)
             self.no_arc = True
             self.leave()
         self.active, self.first = False, True
@@ -152,12 +152,12 @@ class OneMoveQueue(ElementQueue):
     def end_of_program(self) -> None:
         """End of the program: run the held move to its offset point."""
         if self.held is not None:
-            self._run_out((self.standing or [self.held])[-1].line)
+            self._run_out((self.standing or [self.held])[-1])
 
-    def _run_out(self, line: int) -> None:
+    def _run_out(self, place: Place) -> None:
         if self.held is not None:
             end = offset_end(self.held, self.offset)
-            self._check(self.held, end, line)
+            self._check(self.held, end, place)
             self.run_held(end)
 
     def run_out_at_stop(self) -> None:
@@ -165,7 +165,7 @@ class OneMoveQueue(ElementQueue):
         held = self.held
         if held is None:
             return
-        self._run_out(held.line)
+        self._run_out(held)
         self.held, self.start, self.ran = held, None, True
 
     def run_held(self, end: Point) -> None:
@@ -201,7 +201,7 @@ class OneMoveQueue(ElementQueue):
         """Run one element: by itself, as the entry, or joined to the held one."""
         if element.turn and self.no_arc:
             text = "The first move after G40 is straight; write a line before the arc."
-            self.log.stop(self.alarms.arc_exit, text, element.line, 1)
+            self.log.stop(self.alarms.arc_exit, text, element)
         self.no_arc = False
         if not self.active or not self.offset:
             super().travel(element)
@@ -218,7 +218,7 @@ class OneMoveQueue(ElementQueue):
         length = hypot(element.end[0] - element.start[0], element.end[1] - element.start[1])
         if length <= abs(self.offset):
             text = "The entry move is {0} long; it must be longer than the radius {1}."
-            self.log.stop(self.alarms.entry, text, element.line, 1, lengths=(length, abs(self.offset)))
+            self.log.stop(self.alarms.entry, text, element, lengths=(length, abs(self.offset)))
         self._check_radius(element)
         self.open_stretch(self.offset, element)
         self.note(element)
@@ -252,25 +252,25 @@ class OneMoveQueue(ElementQueue):
 
     def _too_small(self, element: Element) -> None:
         text = "The arc radius {0} must be larger than the cutter radius {1}. Use a smaller cutter or a larger arc."
-        self.log.stop(self.alarms.arc_radius, text, element.line, 1, lengths=(element.radius, abs(self.offset)))
+        self.log.stop(self.alarms.arc_radius, text, element, lengths=(element.radius, abs(self.offset)))
 
     def _follow(self, held: Element, element: Element) -> None:
         """Join a move to the held one, whose direction is checked inside, and outside before a line."""
         self._check_radius(element)
         joint = self.joint(held, element)
         if self.ran and held.turn and joint.corner is CornerKind.INSIDE:
-            self.log.stop(self.alarms.concave, ARC_RUN_AT_STOP, element.line, 1, at=element.start)
+            self.log.stop(self.alarms.concave, ARC_RUN_AT_STOP, element, at=element.start)
         if joint.missed:
-            self.log.stop(self.alarms.concave, NO_FIT, element.line, 1, at=element.start)
+            self.log.stop(self.alarms.concave, NO_FIT, element, at=element.start)
         if joint.corner is CornerKind.INSIDE or (joint.corner is CornerKind.OUTSIDE and not element.turn):
-            self._check(held, joint.end, element.line)
+            self._check(held, joint.end, element)
         unchecked = self.ran and not self.standing and joint.corner is CornerKind.INSIDE
         self.run_held(joint.end)
         self.run_joint(joint, element, self.offset)
         self.note(element)
         self.held, self.start = element, None if unchecked else joint.start
 
-    def _check(self, held: Element, end: Point, line: int) -> None:
+    def _check(self, held: Element, end: Point, place: Place) -> None:
         """Stop the program if the held move would run backwards, or around its arc nearly once more."""
         if self.start is None:
             return
@@ -281,4 +281,4 @@ class OneMoveQueue(ElementQueue):
             direction = held.start_direction
             back = (end[0] - self.start[0]) * direction[0] + (end[1] - self.start[1]) * direction[1] < 0.0
         if back:
-            self.log.stop(self.alarms.concave, NO_FIT, line, 1, at=held.end)
+            self.log.stop(self.alarms.concave, NO_FIT, place, at=held.end)

@@ -8,9 +8,8 @@ from typing import Final
 
 from core.controls.compensation.corner_rules import Joint
 from core.controls.compensation.elements import Element
-from core.controls.control_run import Change, Log, Stretch
+from core.controls.control_run import Change, Log, Place, Stretch
 from core.controls.moves import Plane, Point3, Tape, flat, solid
-from core.finding import Severity
 from core.geometry.piece import Point, Side
 from core.tolerance import ON_PATH
 from core.units import Unit
@@ -121,13 +120,13 @@ class Recorder:
         """Return the axis position that a program reads, millimeters; uncompensated, the programmed point."""
         return programmed
 
-    def note_radius(self, radius: float, rule: str, flips: str, line: int, column: int) -> None:
+    def note_radius(self, radius: float, rule: str, flips: str, place: Place) -> None:
         """Note whether a radius is a wear; report a negative one with the sentence that it flips the side."""
         self.wear = -MAX_WEAR <= radius < 0.0
         if self.wear:
-            self.log.report(Severity.WARNING, rule, f"{flips} {_WEAR_LEFT_OUT}", line, column)
+            self.log.warn(rule, f"{flips} {_WEAR_LEFT_OUT}", place)
         elif radius < 0.0:
-            self.log.report(Severity.INFO, rule, f"{flips} {_OUTLINE_JUDGED}", line, column)
+            self.log.inform(rule, f"{flips} {_OUTLINE_JUDGED}", place)
 
     def open_stretch(self, offset: float, element: Element) -> None:
         """Begin a stretch of compensated moves with this element; moves already on the tape come before it."""

@@ -9,12 +9,11 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from dataclasses import dataclass
-from typing import Final, NoReturn
+from typing import Final
 
 from core.controls.iso.modal_state import INVERSE_TIME, ModalState
 from core.controls.iso.reader import Block, whole_word
 from core.controls.moves import Plane, Point3, flat, solid
-from core.finding import Severity
 
 CHIP_CLEARANCE: Final = 0.254
 """Millimeters (0.010 in) by which G73 retracts after a peck, and G83's return stops short of the last depth."""
@@ -54,22 +53,17 @@ def drill(state: ModalState, block: Block) -> Iterator[DrillMove]:
     """Yield the moves of a block of the cycle in force; a block that lacks a word stops the run."""
     code = state.mode or 0
     if not state.dialect.cycles or code in _CYCLES_NOT_FOLLOWED:
-        text = "cutcomp follows this cycle's hole positions but not its depth."
-        state.log.report(Severity.WARNING, "CYCLE", text, block.line, 1)
+        state.log.warn("CYCLE", "cutcomp follows this cycle's hole positions but not its depth.", block)
         first, second, _ = flat(state.target(block.words), state.plane)
         yield solid(first, second, flat(state.position, state.plane)[2], state.plane), True
         return
     if state.rate == INVERSE_TIME:
-        _stop(state, "A drilling cycle does not go with G93; write G94.", block)
+        state.log.stop("CYCLE", "A drilling cycle does not go with G93; write G94.", block.at("G"))
     if not state.feed:
         state.no_feed(block)
     is_first = state.cycle.code != code
     _take_values(state, code, block)
     yield from _holes(state, code, block, is_first=is_first)
-
-
-def _stop(state: ModalState, text: str, block: Block, letters: str = "G") -> NoReturn:
-    state.log.stop("CYCLE", text, block.line, block.column(letters))
 
 
 def _take_values(state: ModalState, code: int, block: Block) -> None:
@@ -81,10 +75,9 @@ def _take_values(state: ModalState, code: int, block: Block) -> None:
     for needed in ("R", letter) if cycle.code != code else ():
         if needed == "R" and needed not in words and not state.dialect.cycle_r_needed:
             cycle.r = 0.0 if _counts_from_here(state) else cycle.began
-            text = "The cycle has no R; cutcomp takes the height at which it begins."
-            state.log.report(Severity.INFO, "CYCLE", text, block.line, block.column("G"))
+            state.log.inform("CYCLE", "The cycle has no R; cutcomp takes the height at which it begins.", block.at("G"))
         elif needed not in words:
-            _stop(state, f"{needed} is missing: the first G{code // 10} block needs it.", block)
+            state.log.stop("CYCLE", f"{needed} is missing: the first G{code // 10} block needs it.", block.at("G"))
     to_heights = state.incremental and state.dialect.fanuc_cycles
     if "R" in words:
         cycle.r = words["R"] * scale + (cycle.began if to_heights else 0.0)
@@ -111,7 +104,7 @@ def _holes(state: ModalState, code: int, block: Block, *, is_first: bool) -> Ite
     r = cycle.r + origin + (cycle.began if _counts_from_here(state) else 0.0)
     bottom = cycle.depth + (r if _counts_from_here(state) else origin)
     if r < bottom:
-        _stop(state, "R is below the bottom of the hole. Correct R or the depth.", block, "RXYZG")
+        state.log.stop("CYCLE", "R is below the bottom of the hole. Correct R or the depth.", block.at("RXYZG"))
     height, level = here[2], cycle.began + origin
     if level < r:
         yield solid(here[0], here[1], r, plane), True
@@ -129,7 +122,7 @@ def _check_first(state: ModalState, code: int, block: Block) -> None:
     """Check for what some cycles also need in their first block: the peck, or the time at the bottom."""
     needed = "Q" if code in _PECK_CYCLES else "P" if code in _DWELL_CYCLES and state.dialect.table_needed else ""
     if needed and needed not in block.words:
-        _stop(state, f"{needed} is missing: the first G{code // 10} block needs it.", block)
+        state.log.stop("CYCLE", f"{needed} is missing: the first G{code // 10} block needs it.", block.at("G"))
 
 
 def _repeats(state: ModalState, block: Block) -> int:
@@ -160,21 +153,21 @@ def _check_spindle(state: ModalState, code: int, block: Block) -> None:
     if not state.dialect.table_needed:
         return
     if code in _TAPPING_CYCLES and state.plane is not Plane.XY:
-        _stop(state, "In this plane the control taps along the wrong axes; write G17.", block)
+        state.log.stop("CYCLE", "In this plane the control taps along the wrong axes; write G17.", block.at("G"))
     wanted = {740: -1, 840: 1}.get(code)
     turning = state.turning
     if turning != wanted if wanted else code == 860 and not turning:
         start_command = {-1: "with M4", 1: "with M3", None: "with M3 or M4"}[wanted]
-        _stop(state, f"G{code // 10} needs a spindle that turns; start it {start_command}.", block)
+        state.log.stop("CYCLE", f"G{code // 10} needs a spindle that turns; start it {start_command}.", block.at("G"))
 
 
 def _pecks(state: ModalState, code: int, block: Block, hole: Hole) -> Iterator[DrillMove]:
     """Yield the pecks of a hole: between them G83 retracts to R, and G73 only a little."""
     peck = state.cycle.peck
     if peck <= 0.0:
-        _stop(state, "Q, the depth of a peck, must be larger than 0.", block, "QG")
+        state.log.stop("CYCLE", "Q, the depth of a peck, must be larger than 0.", block.at("QG"))
     if (hole.r - hole.bottom) / peck > MAX_REPEATS:
-        _stop(state, f"That is more than {MAX_REPEATS} pecks; correct Q.", block, "QG")
+        state.log.stop("CYCLE", f"That is more than {MAX_REPEATS} pecks; correct Q.", block.at("QG"))
     depth = hole.r - peck
     while depth > hole.bottom:
         yield hole.at(depth), False

@@ -15,10 +15,9 @@ from math import acos, asin, atan2, ceil, cos, degrees, exp, floor, fmod, isfini
 from math import log as natural_log
 from typing import Final, NamedTuple
 
-from core.controls.control_run import Log
+from core.controls.control_run import Log, Spot
 from core.controls.iso.code_support import FREE_ASSIGNMENT, HIGH_PARAMETERS, only_on
 from core.controls.program_text import quoted
-from core.finding import Severity
 
 _CONTROL_NAMES: Final = """
 LINE MOTION_MODE PLANE CCOMP METRIC IMPERIAL ABSOLUTE INCREMENTAL INVERSE_TIME UNITS_PER_MINUTE UNITS_PER_REV
@@ -414,20 +413,21 @@ COMMENT_GAP: Final = "\x01"
 
 
 class CompactText(NamedTuple):
-    """A text in capitals without blanks, and the column less one of each character."""
+    """A text of a line in capitals without blanks, and the column less one of each character."""
 
     text: str
     columns: tuple[int, ...]
+    line: int
 
     @staticmethod
-    def of(text: str, start: int = 0) -> CompactText:
+    def of(text: str, line: int, start: int = 0) -> CompactText:
         """Return a text without its blanks; `start` is where it begins on its line."""
         kept = [(character, start + index) for index, character in enumerate(text) if character not in " \t"]
-        return CompactText("".join(character for character, _ in kept), tuple(column for _, column in kept))
+        return CompactText("".join(character for character, _ in kept), tuple(column for _, column in kept), line)
 
-    def column(self, at: int) -> int:
-        """Return the column of a position in the text, from 1; past its end, that of its last character."""
-        return self.columns[min(at, len(self.columns) - 1)] + 1 if self.columns else 1
+    def place(self, at: int) -> Spot:
+        """Return the place of a position in the text; past its end, that of its last character."""
+        return Spot(self.line, self.columns[min(at, len(self.columns) - 1)] + 1 if self.columns else 1)
 
 
 Setting = tuple[int | str, float]
@@ -446,7 +446,7 @@ POLAR: Final = frozenset("@^")
 POLAR_TEXT: Final = "cutcomp does not follow @ and ^, polar coordinates. Write X and Y."
 
 
-def evaluated_line(line: CompactText, number: int, values: MacroParameters, log: Log) -> list[Word]:
+def evaluated_line(line: CompactText, values: MacroParameters, log: Log) -> list[Word]:
     """Return a line's words with the values of their expressions; set the parameters that the line sets.
 
     What cannot be evaluated stops the run.
@@ -458,8 +458,8 @@ def evaluated_line(line: CompactText, number: int, values: MacroParameters, log:
         while reader.at < len(line.text):
             _item(reader, line, words, settings)
     except FaultError as fault:
-        log.stop(fault.code, fault.text, number, line.column(fault.at))
-    report_unset(reader, line, number, log)
+        log.stop(fault.code, fault.text, line.place(fault.at))
+    report_unset(reader, line, log)
     for key, value in settings:
         values.set(key, value)
     return words
@@ -483,7 +483,7 @@ def _item(reader: ExpressionReader, line: CompactText, words: list[Word], settin
         reader.at += 1
         value = reader.value()
         number = exact(value) if reader.values.kept is ParameterStore.NGC else plain(value)
-        words.append(Word(first, number, line.column(begin)))
+        words.append(Word(first, number, line.place(begin).column))
     elif first in POLAR and reader.values.kept is ParameterStore.NGC:
         raise FaultError("BEYOND", POLAR_TEXT, begin)
     else:
@@ -506,11 +506,11 @@ def _setting(reader: ExpressionReader) -> Setting:
     return key, reader.right_side()
 
 
-def report_unset(reader: ExpressionReader, line: CompactText, number: int, log: Log) -> None:
+def report_unset(reader: ExpressionReader, line: CompactText, log: Log) -> None:
     """Warn of parameters that were read before anything set them."""
     for index, at in reader.unset:
         text = f"The program does not set #{index}; cutcomp takes 0, and the control may keep another value in it."
-        log.report(Severity.WARNING, "PARAMETER", text, number, line.column(at))
+        log.warn("PARAMETER", text, line.place(at))
 
 
 def exact(value: float) -> str:

@@ -13,7 +13,7 @@ from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
 from typing import Final, NamedTuple, NoReturn
 
-from core.controls.control_run import NOT_RUN_TEXT, Log
+from core.controls.control_run import NOT_RUN_TEXT, Log, Spot
 from core.controls.iso.code_support import CONTROLS_WITH_JUMPS, only_on
 from core.controls.iso.dialect import Dialect
 from core.controls.iso.expressions import (
@@ -34,7 +34,6 @@ from core.controls.iso.reader import (
     without_comments,
 )
 from core.controls.program_text import lines_of, quoted
-from core.finding import Severity
 
 SIGNS_PER_BLOCK: Final = 64
 SIGNS_PER_EXPRESSION: Final = 4
@@ -64,7 +63,7 @@ def no_library(_: int | str) -> None:
 
 
 class OWord(NamedTuple):
-    """An O-word: its row from 0, label and word, and its line with where the word begins and ends in it.
+    """An O-word: its row from 0, label and word, and its text with where the word begins and ends in it.
 
     The label is empty if it must be evaluated when the word runs.
     """
@@ -72,14 +71,19 @@ class OWord(NamedTuple):
     row: int
     label: str
     word: str
-    line: CompactText
+    text: CompactText
     begin: int
     end: int
 
     @property
+    def line(self) -> int:
+        """The number of its line."""
+        return self.row + 1
+
+    @property
     def column(self) -> int:
-        """The word's column in its line."""
-        return self.line.column(self.begin)
+        """The column of the word."""
+        return self.text.place(self.begin).column
 
 
 @dataclass(slots=True)
@@ -122,7 +126,7 @@ def o_words_of(lines: Sequence[str], first: int = 0) -> dict[int, OWord]:
 def _read(index: int, line: str) -> OWord | None:
     if not line.isascii():
         return None
-    squeezed = CompactText.of(without_comments(line.upper()))
+    squeezed = CompactText.of(without_comments(line.upper()), index + 1)
     match = _LINE.match(squeezed.text)
     if match is None:
         return None
@@ -214,7 +218,7 @@ class Flow:
             return self._return(block)
         elif "O" in block.words and not self._numbers() and self.first_code < self.at - 1:
             text = "The program runs into a subprogram; end it with M30 or M2 before the subprograms."
-            self.log.report(Severity.WARNING, "SUBPROGRAM", text, block.line, block.column("O"))
+            self.log.warn("SUBPROGRAM", text, block.at("O"))
         return True
 
     def _numbers(self) -> set[int]:
@@ -223,17 +227,17 @@ class Flow:
 
     def _call(self, block: Block) -> None:
         number = whole(block.words.get("P", -1.0))
-        column = block.column("P" if "P" in block.words else "M", None if "P" in block.words else 980)
+        place = block.at("P" if "P" in block.words else "M", None if "P" in block.words else 980)
         if not self.dialect.subprograms:
-            self.log.stop("SUBPROGRAM", "This control has no subprograms; write the blocks out.", block.line, column)
+            self.log.stop("SUBPROGRAM", "This control has no subprograms; write the blocks out.", place)
         if number is None or number < 0:
-            self.log.stop("SUBPROGRAM", "M98 needs P and the number of a subprogram.", block.line, column)
+            self.log.stop("SUBPROGRAM", "M98 needs P and the number of a subprogram.", place)
         if number in self._numbers():
-            self.log.stop("SUBPROGRAM", f"Subprogram O{number} calls itself without end.", block.line, column)
+            self.log.stop("SUBPROGRAM", f"Subprogram O{number} calls itself without end.", place)
         start = self.labels.get(number)
         if start is None:
             text = f"There is no subprogram O{number} in this file. Put it after the end of the program."
-            self.log.stop("SUBPROGRAM", text, block.line, column)
+            self.log.stop("SUBPROGRAM", text, place)
         text = "L, how often the subprogram runs, is a whole number, not below 0."
         times = whole_word(block, "L", self.log, "SUBPROGRAM", text, default=1.0)
         if times > 0:
@@ -244,14 +248,13 @@ class Flow:
     def _return(self, block: Block) -> bool:
         if "P" in block.words:
             text = "M99 with P goes on at a block number, which cutcomp does not follow. Write the blocks as they run."
-            text = f"{text} {only_on(CONTROLS_WITH_JUMPS)}"
-            self.log.stop("BRANCH", text, block.line, block.column("P"))
+            self.log.stop("BRANCH", f"{text} {only_on(CONTROLS_WITH_JUMPS)}", block.at("P"))
         if len(self.calls) > 1 and self.calls[-1].number is None:
             text = "A subprogram called by its O-word ends with endsub or return, not with M99."
-            self.log.stop("OWORD", text, block.line, block.column("M", 990))
+            self.log.stop("OWORD", text, block.at("M", 990))
         if len(self.calls) == 1:
             text = "M99 in the main program starts it again without end; cutcomp ends the run at it."
-            self.log.report(Severity.INFO, "SUBPROGRAM", text, block.line, block.column("M", 990))
+            self.log.inform("SUBPROGRAM", text, block.at("M", 990))
             return False
         call = self.calls[-1]
         if call.again:
@@ -272,7 +275,7 @@ class Flow:
         self.budget -= 1 + len(text) // per_block
         if self.budget < 0:
             text = f"Subprograms or loops run more than {self.dialect.max_repeated_blocks} blocks again"
-            self.log.stop("LIMIT", f"{text}, long ones counted several times. {GIVEN_UP_TEXT}", line, 1)
+            self.log.stop("LIMIT", f"{text}, long ones counted several times. {GIVEN_UP_TEXT}", Spot(line))
 
     def finish(self, *, alarmed: bool) -> None:
         """Report what concerns the program as a whole once the run is over, at its end or an alarm."""
@@ -285,7 +288,7 @@ class Flow:
         # a subprogram that a condition skips needs no warning
         closed = any(self.lines[row].strip() == "%" for row in range(last, after))
         if closed or not self.lines[after].lstrip().upper().startswith("O") or self._is_uncalled(after):
-            self.log.report(Severity.WARNING, "NOT_RUN", NOT_RUN_TEXT, after + 1, 1)
+            self.log.warn("NOT_RUN", NOT_RUN_TEXT, Spot(after + 1))
 
     def _is_uncalled(self, row: int) -> bool:
         """True if a row is a program's O and number alone, and no line has that number in a P."""
@@ -296,9 +299,9 @@ class Flow:
         """Warn that the file ends inside a subprogram, or without the end that the control needs."""
         if len(self.calls) > 1:
             text = "The file ends inside a subprogram; end the subprogram with M99."
-            self.log.report(Severity.WARNING, "SUBPROGRAM", text, len(self.lines), 1)
+            self.log.warn("SUBPROGRAM", text, Spot(len(self.lines)))
         elif self.dialect.end_needed and self.percents < 2:
-            self.log.report(Severity.WARNING, "END", "The program has no end; write M2 or M30.", len(self.lines), 1)
+            self.log.warn("END", "The program has no end; write M2 or M30.", Spot(len(self.lines)))
 
 
 class OWordFlow(Flow):
@@ -356,8 +359,7 @@ class OWordFlow(Flow):
             self._stop(word, "A subprogram called by M98 ends with M99; call it with its O-word, or write M99.")
         self.o_words_left -= 1
         if self.o_words_left < 0:
-            text = f"The program has run more than {MAX_O_WORDS} O-words. {GIVEN_UP_TEXT}"
-            self.log.stop("LIMIT", text, line, word.column)
+            self.log.stop("LIMIT", f"The program has run more than {MAX_O_WORDS} O-words. {GIVEN_UP_TEXT}", word)
         if not word.label and word.word != "CALL":
             self._stop(word, "Only call takes an expression as label. Write the number itself.")
         self.at = self._steps[word.word](word)
@@ -377,10 +379,10 @@ class OWordFlow(Flow):
         return name
 
     def _stop(self, word: OWord, text: str) -> NoReturn:
-        self.log.stop("OWORD", text, word.row + 1, word.column)
+        self.log.stop("OWORD", text, word)
 
     def _fault(self, word: OWord, fault: FaultError) -> NoReturn:
-        self.log.stop(fault.code, fault.text, word.row + 1, word.line.column(fault.at))
+        self.log.stop(fault.code, fault.text, word.text.place(fault.at))
 
     @property
     def _opened(self) -> dict[str, OpenBlock]:
@@ -388,7 +390,7 @@ class OWordFlow(Flow):
 
     def _values(self, word: OWord, most: int) -> list[float]:
         """Return the bracketed values after a word, `most` at most; anything else there stops the run."""
-        text, values = word.line.text, list[float]()
+        text, values = word.text.text, list[float]()
         reader = ExpressionReader(text, self.values, word.end)
         try:
             while reader.at < len(text) and len(values) < most:
@@ -398,7 +400,7 @@ class OWordFlow(Flow):
                 raise FaultError("OWORD", rest, reader.at)
         except FaultError as fault:
             self._fault(word, fault)
-        report_unset(reader, word.line, word.row + 1, self.log)
+        report_unset(reader, word.text, self.log)
         return values
 
     def _value(self, word: OWord, what: str = "a condition") -> float:
@@ -439,9 +441,9 @@ class OWordFlow(Flow):
     def _call_sub(self, word: OWord) -> int:
         label = word.label or self._evaluated_label(word)
         name = quoted(f"O{label}" if label.isdigit() else f"O<{label.lower()}>")
-        begun = self._begin_of(label, word.row + 1)
-        if begun is None and (file := self._load(label, word.row + 1)):
-            begun = self._begin_of(label, word.row + 1)
+        begun = self._begin_of(label, word.line)
+        if begun is None and (file := self._load(label, word.line)):
+            begun = self._begin_of(label, word.line)
             if begun is None:
                 self._stop(word, f"{file} is called here and has no subprogram {name}.")
         begun = begun or next(self._begins_of(label), None)
@@ -466,7 +468,7 @@ class OWordFlow(Flow):
         return None
 
     def _evaluated_label(self, word: OWord) -> str:
-        reader = ExpressionReader(word.line.text, self.values, word.line.text.index("O") + 1)
+        reader = ExpressionReader(word.text.text, self.values, word.text.text.index("O") + 1)
         try:
             value = reader.value()
         except FaultError as fault:
@@ -502,7 +504,7 @@ class OWordFlow(Flow):
 
     def _claim_label(self, word: OWord) -> None:
         """Claim a label for a word; one that began something else in its subprogram stops the run."""
-        line, place = self.origin_of(word.row + 1)
+        line, place = self.origin_of(word.line)
         here = place or f"line {line}"
         begun = self.begun.setdefault((self.calls[-1].label, word.label), here)
         if begun != here:

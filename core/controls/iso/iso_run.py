@@ -8,7 +8,7 @@ from typing import Final
 
 import numpy as np
 
-from core.controls.control_run import AlarmError, ControlRun, Log
+from core.controls.control_run import AlarmError, ControlRun, Log, Spot
 from core.controls.control_tools import ToolTable
 from core.controls.iso.dialect import Dialect
 from core.controls.iso.expressions import ParameterStore
@@ -54,10 +54,10 @@ def run_iso(
     try:
         if dialect.syntax.strict and text.startswith(BYTE_ORDER_MARKS):
             fault = "The file begins with a byte order mark, which this control does not read. Save it as plain ASCII."
-            log.stop("WORD", fault, 1, 1)
+            log.stop("WORD", fault, Spot(1))
         if dialect.syntax.strict and (cr_alone := _CR_ALONE.search(text)):
             fault = "This line ends with CR alone, which this control does not take for its end. Save the file with LF."
-            log.stop("WORD", fault, text.count(b"\n", 0, cr_alone.start()) + 1, 1)
+            log.stop("WORD", fault, Spot(text.count(b"\n", 0, cr_alone.start()) + 1))
         _run(flow, machine, progress)
     except AlarmError as alarm:
         log.add(alarm.finding)

@@ -11,7 +11,7 @@ from typing import Final
 
 from core.controls.compensation.elements import arc_element, element_sweep, line_element
 from core.controls.compensation.recorder import Recorder
-from core.controls.control_run import Log, SpindleChange
+from core.controls.control_run import Log, SpindleChange, Spot
 from core.controls.control_tools import ToolTable, missing_tool
 from core.controls.iso import cycles
 from core.controls.iso.arcs import IN_PLANE, NoArc, center_by_radius, given_center
@@ -20,7 +20,6 @@ from core.controls.iso.dialect import PLANE_OF_CODE, Code, CodeAction, Dialect, 
 from core.controls.iso.modal_state import G54, ORIGIN, PER_MINUTE, TAKEN_AS_ZERO, ModalState, system_code
 from core.controls.iso.reader import Block, whole, whole_word
 from core.controls.moves import Plane, Point3, flat, without_rounding
-from core.finding import Severity
 from core.geometry.piece import Point, Side
 from core.tolerance import ON_PATH
 from core.units import Unit, from_mm
@@ -107,7 +106,7 @@ class Control(Recorder):
         """Handle the end of the program at this line, and warn if it is still under compensation."""
         if self.active and self.machine.side_on:
             text = "The program ends under compensation. Write G40 and a move away from the part."
-            self.log.report(Severity.WARNING, "OPEN", text, line, 1)
+            self.log.warn("OPEN", text, Spot(line))
         self.end_of_program()
 
 
@@ -196,7 +195,7 @@ class Machine(ModalState):
                 text = (
                     lathe_cycle(number, block.words) or f"{text} {only_on(CONTROLS_WITH_CODE.get(number, ()))}".rstrip()
                 )
-                self.log.stop("CODE", text, block.line, block.column("G", number))
+                self.log.stop("CODE", text, block.at("G", number))
 
     def _grouped(self, block: Block) -> list[Code]:
         """Return a block's G codes in execution order; stop at an unknown one or, on most controls, two of a group."""
@@ -209,19 +208,18 @@ class Machine(ModalState):
             if code.group in groups and self.dialect.last_code_counts:
                 known = [other for other in known if other.group != code.group]
                 text = f"G{number / 10:g} is the second G code of its group in this block; the last one counts."
-                self.log.report(Severity.WARNING, self.dialect.group_rule, text, block.line, block.column("G", number))
+                self.log.warn(self.dialect.group_rule, text, block.at("G", number))
             elif code.group in groups:
                 text = f"G{number / 10:g} is the second G code of its group in this block; keep one."
-                self.log.stop(self.dialect.group_rule, text, block.line, block.column("G", number))
+                self.log.stop(self.dialect.group_rule, text, block.at("G", number))
             groups.add(code.group)
             known.append(code)
         if {"motion", "cycle"} <= groups and any(code.action is CodeAction.CYCLE for code in known):
-            rule, column = self.dialect.group_rule, block.column("G")
+            rule, place = self.dialect.group_rule, block.at("G")
             if not self.dialect.last_code_counts:
                 text = "cutcomp does not know which counts, the motion or the cycle. Write them in two blocks."
-                self.log.stop(rule, text, block.line, column)
-            text = "G0 to G3 next to a drilling cycle cancels the cycle. Write them in two blocks."
-            self.log.report(Severity.WARNING, rule, text, block.line, column)
+                self.log.stop(rule, text, place)
+            self.log.warn(rule, "G0 to G3 next to a drilling cycle cancels the cycle. Write them in two blocks.", place)
             known = [code for code in known if code.action is not CodeAction.CYCLE]
         known.sort(key=lambda code: _ACTION_ORDER.get(code.action, _LATEST))
         return known
@@ -279,7 +277,7 @@ class Machine(ModalState):
             case CodeAction.UNSUPPORTED:
                 text = f"cutcomp does not support G{code.value / 10:g}. Write out the moves that it makes or changes."
                 text = lathe_cycle(code.value, block.words) or text
-                self.log.stop("BEYOND", text, block.line, block.column("G", code.value))
+                self.log.stop("BEYOND", text, block.at("G", code.value))
 
     def _set_units(self, code: int) -> None:
         self.unit = self.control.unit = Unit.MM if code in _METRIC_CODES else Unit.IN
@@ -296,7 +294,7 @@ class Machine(ModalState):
             self.control.tool_changed()
         if self.control.active and self.side_on and 400 not in block.g and self.tool != before:
             text = f"Tool {self.tool} is loaded, and compensation goes on with the radius in force. Write G40 first."
-            self.log.report(Severity.WARNING, "OFFSET", text, block.line, block.column("TM"))
+            self.log.warn("OFFSET", text, block.at("TM"))
 
     def _note_spindle(self) -> None:
         """Note the tool and the speed in force, if one has changed; without an M6, the tool is that of the T."""
@@ -307,8 +305,7 @@ class Machine(ModalState):
     def _warn_of_axes(self, block: Block) -> None:
         for letter in _OTHER_AXES:
             if letter in block.words:
-                text = f"cutcomp does not follow axis {letter}, only X, Y and Z."
-                self.log.report(Severity.WARNING, "AXIS", text, block.line, block.column(letter))
+                self.log.warn("AXIS", f"cutcomp does not follow axis {letter}, only X, Y and Z.", block.at(letter))
 
     def _warn_of_unused(self, block: Block) -> None:
         """Warn of words that no code uses: a control may do something with them that cutcomp does not follow."""
@@ -317,7 +314,7 @@ class Machine(ModalState):
             text = f"No code in this block uses {' and '.join(unused)}. cutcomp ignores it."
             if not {"D", "H"}.isdisjoint(unused):
                 text = f"{text} {only_on(OFFSETS_ANYWHERE)}"
-            self.log.report(Severity.WARNING, "UNUSED", text, block.line, block.column("".join(unused)))
+            self.log.warn("UNUSED", text, block.at("".join(unused)))
 
     def _motion(self, block: Block) -> None:
         words, mode = block.words, self.mode
@@ -330,8 +327,7 @@ class Machine(ModalState):
             self._travel(block, mode)
         elif self.dialect.moves_alone and not _MOTION_CODES.isdisjoint(block.g):
             if mode in _ARC_TURNS:
-                text = "The arc has neither end point nor center; write them."
-                self.log.stop("ARC", text, block.line, block.column("G", mode))
+                self.log.stop("ARC", "The arc has neither end point nor center; write them.", block.at("G", mode))
             self._straight(block, self.position, rapid=mode == 0)
         elif self.control.active:
             self.control.block_without_motion(block)
@@ -342,8 +338,7 @@ class Machine(ModalState):
         elif mode in _ARC_TURNS:
             self._arc(block, _ARC_TURNS[mode])
         elif mode is None or mode == _G80:
-            text = "Axis words without a motion in force; write G0, G1, G2 or G3."
-            self.log.stop("MOTION", text, block.line, block.column("XYZ"))
+            self.log.stop("MOTION", "Axis words without a motion in force; write G0, G1, G2 or G3.", block.at("XYZ"))
         else:
             self._drill(block)
 
@@ -367,8 +362,7 @@ class Machine(ModalState):
         self.first_unit = self.unit
         if not self.unit_said:
             name = "inches" if self.unit is Unit.IN else "millimeters"
-            text = f"The program does not say its unit; cutcomp takes {name}."
-            self.log.report(Severity.INFO, "UNIT", text, block.line, block.column("XYZ"))
+            self.log.inform("UNIT", f"The program does not say its unit; cutcomp takes {name}.", block.at("XYZ"))
 
     def _arc(self, block: Block, turn: int) -> None:
         if not self.feed and self.rate == PER_MINUTE:
@@ -395,10 +389,10 @@ class Machine(ModalState):
         else:
             center = self._given_center(block, start, end, absolute=self.centers_from_origin)
         if isinstance(center, NoArc):
-            column = block.column("R" if "R" in block.words else "IJK")
+            place = block.at("R" if "R" in block.words else "IJK")
             rule = center.fault if center.fault in self.dialect.rule_names else "ARC"
             text = center.text + self._fits_otherwise(block, start, end)
-            self.log.stop(rule, text, block.line, column, lengths=center.lengths)
+            self.log.stop(rule, text, place, lengths=center.lengths)
         return center
 
     def _given_center(self, block: Block, start: Point, end: Point, *, absolute: bool) -> Point | NoArc:
@@ -429,7 +423,7 @@ class Machine(ModalState):
     def _drill(self, block: Block) -> None:
         if self.control.active:
             text = "A drilling cycle does not go with compensation; write G40 before it, or G80 and another motion."
-            self.log.stop(self.dialect.cycle_rule, text, block.line, block.column("GXYZ"))
+            self.log.stop(self.dialect.cycle_rule, text, block.at("GXYZ"))
         for end, rapid in cycles.drill(self, block):
             self._straight(block, end, rapid=rapid)
 
@@ -465,8 +459,7 @@ class Machine(ModalState):
     def _select_system(self, code: int, block: Block) -> None:
         """Select a work offset; one that the program did not set is taken as zero, and except for G54 reported."""
         if code not in self.origin.systems and code != G54:
-            text = f"The offset of G{code / 10:g} {TAKEN_AS_ZERO}"
-            self.log.report(Severity.WARNING, "OFFSET", text, block.line, block.column("G", code))
+            self.log.warn("OFFSET", f"The offset of G{code / 10:g} {TAKEN_AS_ZERO}", block.at("G", code))
         self.set_origin(replace(self.origin, system=code))
 
     def _reading_as_written(self, block: Block, rest: Point3, old: Point3) -> Point3:
@@ -488,17 +481,17 @@ class Machine(ModalState):
         else:
             settable = "work offsets: G10 L2 P1 to P6 with X, Y, Z"
             text = f"cutcomp sets only {settable}. {only_on(TOOL_DATA.get(kind or 0, ()))}".rstrip()
-            self.log.stop("DATA", f"{text} Set other data on the control.", block.line, block.column("L"))
+            self.log.stop("DATA", f"{text} Set other data on the control.", block.at("L"))
 
     def _set_system(self, block: Block, *, from_here: bool) -> None:
         """Run G10 L2 P: set a work offset; with L20, so that the current position reads as written."""
         number, most = whole(block.words.get("P", -1.0)), 9 if self.dialect.tool_data_kinds else 6
         if self.dialect.tool_data_kinds and block.words.get("R", 0.0):
             text = "cutcomp does not follow a work offset with a rotation R, and the path after it would be wrong."
-            self.log.stop("BEYOND", text, block.line, block.column("R"))
+            self.log.stop("BEYOND", text, block.at("R"))
         if number is None or not 0 <= number <= most or block.words.get("R", 0.0):
             text = f"A work offset is set by G10 L2 P1 to P{most} with X, Y, Z, without a rotation R."
-            self.log.stop("DATA", text, block.line, block.column("R" if "R" in block.words else "PL"))
+            self.log.stop("DATA", text, block.at("R" if "R" in block.words else "PL"))
         code = system_code(number) if number else self.origin.system
         old = self.origin.systems.get(code, ORIGIN)
         offset = self._reading_as_written(block, self.origin.local, old) if from_here else self.axis_words(block, old)
@@ -509,7 +502,7 @@ class Machine(ModalState):
         number = whole(block.words.get("P", -1.0))
         tool = None if number is None else self.tools.get(number)
         if tool is None:
-            self.log.stop("TOOL", missing_tool(number), block.line, block.column("PL"), tool=number)
+            self.log.stop("TOOL", missing_tool(number), block.at("PL"), tool=number)
         text = "Q, the orientation of a lathe tool, is a whole number from 0 to 9."
         orientation = whole_word(block, "Q", self.log, "DATA", text, 0, 9, default=tool.orientation)
         tool = replace(tool, orientation=orientation)
@@ -519,8 +512,7 @@ class Machine(ModalState):
 
     def _home(self, block: Block) -> None:
         """Run G28 or G30: move by way of the block's point to the reference point, taken as machine zero."""
-        text = "The reference point is not known; cutcomp takes the machine's zero."
-        self.log.report(Severity.WARNING, "HOME", text, block.line, block.column("G"))
+        self.log.warn("HOME", "The reference point is not known; cutcomp takes the machine's zero.", block.at("G"))
         named = [letter in block.words for letter in "XYZ"]
         if any(named):
             self._straight(block, self.target(block.words), rapid=True)
@@ -535,10 +527,9 @@ class Machine(ModalState):
         wrong = next((letter for letter in "YZ" if letter in block.words), None)
         if wrong is not None:
             text = f"{wrong} with G4 may or may not move the axis. Put it in its own block."
-            self.log.stop("DWELL", text, block.line, block.column(wrong))
+            self.log.stop("DWELL", text, block.at(wrong))
         if "X" in block.words:
-            text = "cutcomp takes X with G4 as the time to wait; nothing moves."
-            self.log.report(Severity.INFO, "DWELL", text, block.line, block.column("X"))
+            self.log.inform("DWELL", "cutcomp takes X with G4 as the time to wait; nothing moves.", block.at("X"))
         if self.control.active:
             self.control.block_without_motion(block)
 
@@ -546,5 +537,5 @@ class Machine(ModalState):
         """Run G53: count this block from machine zero."""
         if self.mode not in _LINE_CODES or self.incremental:
             text = "G53 goes with G0 or G1 in absolute positions; write G90 G0 G53."
-            self.log.stop("MOTION", text, block.line, block.column("G", _G53))
+            self.log.stop("MOTION", text, block.at("G", _G53))
         self._straight(block, self.axis_words(block, self.position), rapid=self.mode == 0)

@@ -27,7 +27,6 @@ from core.controls.iso.expressions import (
     plain,
 )
 from core.controls.program_text import quoted
-from core.finding import Severity
 
 MAX_EQUAL_SHARE: Final = 1e-8
 """How far apart two values may be, relative to the larger one, and still be equal."""
@@ -300,7 +299,7 @@ class MacroReader(ExpressionReader):
         return float(self._computed(begin, name, lambda base, power: float(base**power), first, second))
 
 
-def set_variables(reader: MacroReader, line: CompactText, number: int, values: Variables, log: Log) -> None:
+def set_variables(reader: MacroReader, line: CompactText, values: Variables, log: Log) -> None:
     """Run an assignment, `#1=...`; a second one in its block runs too, and is reported."""
     text = line.text
     for count in range(len(text)):
@@ -315,7 +314,7 @@ def set_variables(reader: MacroReader, line: CompactText, number: int, values: V
             raise FaultError(rule, f"{quoted(text[begin:])} cannot follow an assignment. Use its own block.", begin)
         if count:
             message = "A second assignment in this block; cutcomp runs both. Write them in two blocks."
-            log.report(Severity.WARNING, "PS0127", message, number, line.column(begin))
+            log.warn("PS0127", message, line.place(begin))
         key = reader.key()
         if text[reader.at : reader.at + 1] != "=":
             raise FaultError("PS0114", "A variable needs = and a value, or a letter before it.", begin)
@@ -344,7 +343,7 @@ def words_of(
             continue
         if first == "/":
             reader.at += text[reader.at : reader.at + 1].isdigit()
-            skip = line.column(begin)
+            skip = line.place(begin).column
         elif first == "," and text[reader.at : reader.at + 1] in ("R", "C"):
             reader.at += 1
             corner = text[begin + 1], reader.value()
@@ -359,7 +358,7 @@ def words_of(
                 number = plain(value)
                 # the point of a number that is written with one still counts
                 point = "." if "." in text[begin : reader.at] and "." not in number else ""
-                words.append(Word(first, f"{number}{point}", line.column(begin)))
+                words.append(Word(first, f"{number}{point}", line.place(begin).column))
                 if first == "G":
                     macro_call = macro_call or number in ("65", "66")
                     reader.increment = INCREMENTS.get(number, reader.increment)

@@ -13,7 +13,7 @@ from dataclasses import dataclass, replace
 from math import inf
 from typing import Final, NamedTuple, NoReturn
 
-from core.controls.control_run import NOT_RUN_TEXT, Log
+from core.controls.control_run import NOT_RUN_TEXT, Log, Place, Spot
 from core.controls.iso.dialect import Dialect
 from core.controls.iso.expressions import COMMENT_GAP, CompactText, FaultError, plain
 from core.controls.iso.flow import Call, Flow, ProgramLibrary, o_words_of
@@ -36,7 +36,6 @@ from core.controls.iso.reader import (
     without_comments,
 )
 from core.controls.program_text import capitals, lines_of, quoted
-from core.finding import Severity
 from core.units import Unit
 
 MAX_ROWS_RUN_AGAIN: Final = 1_000_000
@@ -184,7 +183,7 @@ class MacroFlow(Flow):
         main = next((row for row in programs if row not in self.called_programs), first)
         if main != first:
             text = f"cutcomp runs {self._name_of(main)}: {self._name_of(first)}, which stands before it, is called."
-            self.log.report(Severity.INFO, "PROGRAM", text, self.numbers[main], self.starts[main] + 1)
+            self.log.inform("PROGRAM", text, Spot(self.numbers[main], self.starts[main] + 1))
         return main
 
     def _name_of(self, row: int) -> str:
@@ -211,13 +210,13 @@ class MacroFlow(Flow):
             more = f" and {len(idle) - MAX_NAMED_PROGRAMS} more" if len(idle) > MAX_NAMED_PROGRAMS else ""
             which = "a call with a variable may mean" if self.calls_by_variable else "nothing in this file calls"
             text = f"Programs that {which} were not run: {names}{more}. Check each by itself."
-            self.log.report(Severity.WARNING, "NOT_RUN", text, self.numbers[idle[0]], 1)
+            self.log.warn("NOT_RUN", text, Spot(self.numbers[idle[0]]))
         if self.line_before is not None:
             text = "The lines from here to the % stand before the program and were not run. Check them."
-            self.log.report(Severity.WARNING, "NOT_RUN", text, self.line_before, 1)
+            self.log.warn("NOT_RUN", text, Spot(self.line_before))
         line_after = self._line_after_end() or self.unread_line
         if line_after is not None:
-            self.log.report(Severity.WARNING, "NOT_RUN", NOT_RUN_TEXT, line_after, 1)
+            self.log.warn("NOT_RUN", NOT_RUN_TEXT, Spot(line_after))
 
     def _line_after_end(self) -> int | None:
         """Return the first line with words after the last row that ran; None if its N may be the target of a jump."""
@@ -234,12 +233,12 @@ class MacroFlow(Flow):
         for number, line in enumerate(lines, first_number):
             if _FOR_EDITORS.match(line):
                 message = f"A line for an editor or a simulator is ignored: {quoted(line.strip())}"
-                self.log.report(Severity.INFO, "TEXT", message, number, 1)
+                self.log.inform("TEXT", message, Spot(number))
                 continue
             for start, text in between_semicolons(line):
                 if start and _is_remark(text):
                     message = f"Text after the end of the block is ignored: {quoted(text)}"
-                    self.log.report(Severity.INFO, "TEXT", message, number, start + 1)
+                    self.log.inform("TEXT", message, Spot(number, start + 1))
                     continue
                 row = len(self.lines)
                 self.lines.append(text)
@@ -281,10 +280,10 @@ class MacroFlow(Flow):
                 f"The program does not end: for {rows_without_progress} blocks or more, no condition of a loop or "
                 "a jump came closer to its end. cutcomp stops here."
             )
-            self.log.stop("LIMIT", text, self.numbers[line - 1], 1)
+            self.log.stop("LIMIT", text, Spot(self.numbers[line - 1]))
         if self.rows_run_again > MAX_ROWS_RUN_AGAIN or self.rows_without_movement > MAX_ROWS_WITHOUT_MOVEMENT:
             text = "The program does not end: a loop or a jump runs for ever. cutcomp stops here."
-            self.log.stop("LIMIT", text, self.numbers[line - 1], 1)
+            self.log.stop("LIMIT", text, Spot(self.numbers[line - 1]))
 
     def _note_progress(self, row: int, differences: list[float]) -> None:
         """Reset the count of rows without progress if the values that a condition compares are closer than ever before.
@@ -330,7 +329,7 @@ class MacroFlow(Flow):
             elif statement.keyword:
                 self.at = self._run_statement(statement, row)
         except FaultError as fault:
-            self._fault(fault, row, statement.line)
+            self._fault(fault, statement.line)
         except AlarmByProgramError as alarm:
             self._program_alarm(alarm.number, row)
         self._report_unset(row)
@@ -354,7 +353,7 @@ class MacroFlow(Flow):
                 f"The program does not set #{unset[0]}; cutcomp takes it as vacant, 0 in a sum. "
                 "The control may keep a value in it."
             )
-            self.log.report(Severity.WARNING, "PARAMETER", text, self.numbers[row], 1)
+            self.log.warn("PARAMETER", text, Spot(self.numbers[row]))
 
     def _statement(self, row: int) -> Statement:
         """Return a row as a macro statement, read once."""
@@ -370,12 +369,12 @@ class MacroFlow(Flow):
             self._note_points(words, row)
             block = Block(self.numbers[row], self.lines[row], self.starts[row])
             plain = fill_words(block, pairs_in(words), self.log, self.dialect.syntax) if words.strip() else None
-            return Statement("", CompactText("", ()), plain=plain)
+            return Statement("", CompactText("", (), self.numbers[row]), plain=plain)
         bare = without_comments(text, COMMENT_GAP)
-        line = CompactText.of(bare, self.starts[row])
+        line = CompactText.of(bare, self.numbers[row], self.starts[row])
         if o_words_of([text]):
             message = "O-words are LinuxCNC's. Call subprograms with M98 and macros with G65; write IF, WHILE and GOTO."
-            self.log.stop("WORD", message, self.numbers[row], line.column(0))
+            self.log.stop("WORD", message, line.place(0))
         if not _EXPRESSION_CHARACTERS.intersection(bare):
             self._note_points(bare, row)
         keyword = _KEYWORD.match(line.text)
@@ -383,14 +382,14 @@ class MacroFlow(Flow):
             return Statement(keyword[1] or "[", line, keyword.end())
         return Statement("OUT" if _EXTERNAL.match(line.text) else "", line)
 
-    def _fault(self, fault: FaultError, row: int, line: CompactText) -> NoReturn:
-        self.log.stop(fault.code, fault.text, self.numbers[row], line.column(fault.at))
+    def _fault(self, fault: FaultError, line: CompactText) -> NoReturn:
+        self.log.stop(fault.code, fault.text, line.place(fault.at))
 
     def _program_alarm(self, number: int, row: int) -> NoReturn:
         comment = re.search(r"\(([^)]*)", self.lines[row])
         quotation = f': "{quoted(comment[1])}"' if comment else ""
         text = f"The program stops itself here with alarm {3000 + number}{quotation}."
-        self.log.stop(f"MC{3000 + number}", text, self.numbers[row], 1)
+        self.log.stop(f"MC{3000 + number}", text, Spot(self.numbers[row]))
 
     # macro statements
 
@@ -415,10 +414,10 @@ class MacroFlow(Flow):
         return row + 1
 
     def _set(self, reader: MacroReader, line: CompactText, row: int) -> None:
-        set_variables(reader, line, self.numbers[row], self.variables, self.log)
+        set_variables(reader, line, self.variables, self.log)
         if "#3006=" in line.text:
             text = "The program shows a message here and waits for cycle start; cutcomp goes on."
-            self.log.report(Severity.INFO, "FN-MESSAGE", text, self.numbers[row], 1)
+            self.log.inform("FN-MESSAGE", text, Spot(self.numbers[row]))
 
     def _if(self, reader: MacroReader, line: CompactText, row: int) -> int:
         true = reader.brackets() != 0.0
@@ -497,8 +496,7 @@ class MacroFlow(Flow):
             rows = (other for other in range(row + 1, last) if wanted.match(self._squeezed(other)))
             end = next(rows, None)
             if end is None:
-                text = f"The loop DO{number} has no END{number}. Write it."
-                self.log.stop("PS0124", text, self.numbers[row], 1)
+                self.log.stop("PS0124", f"The loop DO{number} has no END{number}. Write it.", Spot(self.numbers[row]))
             self.ends[row] = end
         return end
 
@@ -511,7 +509,7 @@ class MacroFlow(Flow):
         begin = call.loops.get(number)
         if begin is None or self._end_of(number, begin) != row:
             text = f"END{number} has no DO{number} before it that is running. A jump must not lead into a loop."
-            self.log.stop("PS0124", text, self.numbers[row], 1)
+            self.log.stop("PS0124", text, Spot(self.numbers[row]))
         call.loops = {loop: other for loop, other in call.loops.items() if other < begin}
         return begin
 
@@ -547,11 +545,10 @@ class MacroFlow(Flow):
         try:
             words, corner, skip = words_of(line, self.variables, increment, start)
         except FaultError as fault:
-            self._fault(fault, row, line)
+            self._fault(fault, line)
         self._report_unset(row)
         if skip:
-            message = "Block skip is assumed off, so this block runs."
-            self.log.report(Severity.INFO, "SKIP", message, number, skip)
+            self.log.inform("SKIP", "Block skip is assumed off, so this block runs.", Spot(number, skip))
         if not words:
             return None
         block = Block(number, line.text, self.starts[row], evaluated=words, corner=corner)
@@ -586,33 +583,33 @@ class MacroFlow(Flow):
         for code in (960, 1980):
             if code in block.m and "P" in block.words:
                 text = f"cutcomp does not follow M{code // 10} P, which may run other blocks. Check them by themselves."
-                self.log.stop("BEYOND", text, block.line, block.column("M", code))
+                self.log.stop("BEYOND", text, block.at("M", code))
         return self._return(block) if 990 in block.m else True
 
     def _call(self, block: Block) -> None:
-        row, column = self.at - 1, block.column("M", 980)
+        row, place = self.at - 1, block.at("M", 980)
         if "P" not in block.words:
-            self.log.stop("PS0076", "The call needs P and the number of a program.", block.line, column)
+            self.log.stop("PS0076", "The call needs P and the number of a program.", place)
         number, times = round(block.words["P"]), block.words.get("L", 1.0)
         if "L" not in block.words and number > MAX_TIMES and not self.dialect.m97_calls:
             times, number = float(number // 10_000), number % 10_000
         if not 0.0 <= times <= MAX_TIMES:
-            self.log.stop("PS0007", f"L is a number of times from 1 to {MAX_TIMES}.", block.line, block.column("L"))
+            self.log.stop("PS0007", f"L is a number of times from 1 to {MAX_TIMES}.", block.at("L"))
         if sum(not call.macro for call in self.calls[1:]) >= MAX_CALLS:
-            self.log.stop("PS0077", f"Subprograms run more than {MAX_CALLS} deep.", block.line, column)
+            self.log.stop("PS0077", f"Subprograms run more than {MAX_CALLS} deep.", place)
         if 970 in block.m:
-            self._push(self._target(number, block, column), max(round(times), 1), None)
+            self._push(self._target(number, place), max(round(times), 1), None)
             return
         self._begin_call(number, max(round(times), 1), block, row, None)
 
     def _call_macro(self, block: Block, row: int, *, modal: bool) -> None:
         """Call a macro with its arguments (G65), or keep it for the moves that follow (G66)."""
-        column = block.column("G")
+        place = block.at("G")
         if "P" not in block.words:
-            self.log.stop("PS0076", "The call needs P and the number of a program.", block.line, column)
+            self.log.stop("PS0076", "The call needs P and the number of a program.", place)
         number, times = round(block.words["P"]), round(block.words.get("L", 1.0))
         if not 1 <= times <= MAX_TIMES:
-            self.log.stop("PS0007", f"L is a number of times from 1 to {MAX_TIMES}.", block.line, block.column("L"))
+            self.log.stop("PS0007", f"L is a number of times from 1 to {MAX_TIMES}.", block.at("L"))
         arguments = arguments_of(block)
         if modal:
             self.modal_call = ModalCall(number, times, arguments, len(self.calls))
@@ -624,7 +621,7 @@ class MacroFlow(Flow):
     ) -> None:  # fmt: skip
         macros = sum(call.macro for call in self.calls[1:])
         if arguments is not None and macros >= MAX_CALLS:
-            self.log.stop("PS0077", f"Macros run more than {MAX_CALLS} deep.", block.line, block.column("G"))
+            self.log.stop("PS0077", f"Macros run more than {MAX_CALLS} deep.", block.at("G"))
         self._push(self._start_of(number, block, row), times, arguments)
 
     def _start_of(self, number: int, block: Block, row: int) -> int:
@@ -653,10 +650,9 @@ class MacroFlow(Flow):
             return
         if program is None and number in BUILDER_PROGRAMS:
             text = f"O{number} may be a macro of the machine, such as for a probe. Add it to the file or its folder."
-            self.log.stop("BEYOND", text, block.line, block.column("P"))
+            self.log.stop("BEYOND", text, block.at("P"))
         if program is None:
-            text = f"There is no program O{number} in this file or its folder. Add it."
-            self.log.stop("PS0076", text, block.line, block.column("P"))
+            self.log.stop("PS0076", f"There is no program O{number} in this file or its folder. Add it.", block.at("P"))
         name, content = program
         lines, _, _ = _between_percents(lines_of(content))
         first = self._append(lines, self.add_called(name, len(lines), self.numbers[row]))
@@ -686,22 +682,22 @@ class MacroFlow(Flow):
             self.at = call.back
             self.program = self._range_of(call.back - 1)
         if target is not None:
-            self.at = self._target(round(target), block, block.column("P"))
+            self.at = self._target(round(target), block.at("P"))
         return True
 
-    def _target(self, number: int, block: Block, column: int) -> int:
+    def _target(self, number: int, place: Place) -> int:
         """Return the row of a sequence number that a call or a return names."""
         try:
             return self._row_of(float(number), self.at - 1, 0)
         except FaultError as fault:
-            self.log.stop(fault.code, fault.text, block.line, column)
+            self.log.stop(fault.code, fault.text, place)
 
     def finish(self, *, alarmed: bool) -> None:
         """Report what concerns the program as a whole once the run is over, at its end or an alarm."""
         text = "\n".join(self.lines).upper()
         if self.variables.vacant_arguments and "M99" in text and not re.search(r"M0?2(?!\d)|M30", text):
             message = "This looks like the body of a macro: it reads arguments that nothing sets. Call it with G65."
-            self.log.report(Severity.INFO, "FN-BODY", message, 1, 1)
+            self.log.inform("FN-BODY", message, Spot(1))
         if self.no_point:
             (word, *place), count = self.no_point[0], len(self.no_point)
             word = "".join(word.split())
@@ -713,14 +709,14 @@ class MacroFlow(Flow):
                 f"{which} no decimal point. cutcomp takes {word} as {plain(value)} {units}; "
                 f"{self.dialect.least_increment_setting} it is {least}."
             )
-            self.log.report(Severity.WARNING, "FN-POINT", message, *place)
+            self.log.warn("FN-POINT", message, Spot(*place))
         if not alarmed:
             self._report_not_run()
 
     def end_of_file(self) -> None:
         """Warn that the program ends without M30, M02 or M99."""
         text = "The program has no end. Write M30, or M99 in a subprogram."
-        self.log.report(Severity.WARNING, "END", text, self.numbers[-1] if self.numbers else 1, 1)
+        self.log.warn("END", text, Spot(self.numbers[-1] if self.numbers else 1))
 
 
 def arguments_of(block: Block) -> dict[int, float]:

@@ -12,7 +12,7 @@ from math import atan2, cos, hypot, radians, sin, tan
 from typing import Final, NoReturn
 
 from core.controls.compensation.elements import arc_element
-from core.controls.control_run import Log
+from core.controls.control_run import Log, Spot
 from core.controls.control_tools import ToolTable
 from core.controls.iso.arcs import IN_PLANE
 from core.controls.iso.dialect import Code, CodeAction, Dialect, p_is_of_g54
@@ -22,7 +22,6 @@ from core.controls.iso.macro_b import VACANT
 from core.controls.iso.modal_state import EXTERNAL_OFFSET, ORIGIN, TAKEN_AS_ZERO
 from core.controls.iso.reader import Block, whole, whole_word
 from core.controls.moves import Plane, Point3, flat, solid
-from core.finding import Severity
 from core.units import Unit, from_mm, to_mm
 
 _LENGTH_OFFSET_L: Final = 10
@@ -195,7 +194,7 @@ class MacroMachine(Machine):
         for number in block.g:
             if number >= FIRST_BUILDER_CODE and number not in self.dialect.codes:
                 text = f"G{number / 10:g} may be a macro of the machine ({self.dialect.macro_codes}). Call it with G65."
-                self.log.stop("CODE", text, block.line, block.column("G", number))
+                self.log.stop("CODE", text, block.at("G", number))
         codes = super()._grouped(block)
         for code in codes:
             if code.group in self.in_force:
@@ -215,7 +214,7 @@ class MacroMachine(Machine):
             if letter in words and axis in self.unknown:
                 if self.incremental and words[letter]:
                     text = f"Where {letter} stands after the move to the machine's point is not known. Write G90."
-                    self.log.stop("FN-WHERE", text, self.current.line, self.current.column(letter))
+                    self.log.stop("FN-WHERE", text, self.current.at(letter))
                 self.unknown.discard(axis)
                 self.start_unknown = True
                 self.start_height_unknown |= axis == 2
@@ -254,11 +253,11 @@ class MacroMachine(Machine):
 
     def _stop_at_arc_corner(self, block: Block) -> NoReturn:
         text = "cutcomp follows ,R and ,C only between two straight moves. Write the corner's moves."
-        self.log.stop("BEYOND", text, block.line, 1)
+        self.log.stop("BEYOND", text, block)
 
     def _stop_without_two_lines(self, block: Block) -> NoReturn:
         text = "A rounding or chamfer stands between two straight moves. Write the second one in the next block."
-        self.log.stop("PS0051", text, block.line, 1)
+        self.log.stop("PS0051", text, block)
 
     def _straight(self, block: Block, end: Point3, *, rapid: bool) -> None:
         following, self.following = self.following, None
@@ -294,13 +293,13 @@ class MacroMachine(Machine):
         first, second = hypot(px - ax, py - ay), hypot(bx - px, by - py)
         if not first or not second or not low == high == beyond_height or value < 0.0:
             text = "A rounding or chamfer needs two straight moves in the plane and a size above 0."
-            self.log.stop("PS0051", text, block.line, 1)
+            self.log.stop("PS0051", text, block)
         into, out = ((px - ax) / first, (py - ay) / first), ((bx - px) / second, (by - py) / second)
         angle = atan2(into[0] * out[1] - into[1] * out[0], into[0] * out[0] + into[1] * out[1])
         reach = value if kind == "C" else value * tan(abs(angle) / 2)
         if reach > min(first, second):
             text = "The rounding or chamfer is longer than a move beside it: {0} of {1}. Write a smaller one."
-            self.log.stop("PS0055", text, block.line, 1, lengths=(reach, min(first, second)))
+            self.log.stop("PS0055", text, block, lengths=(reach, min(first, second)))
         start, end = (px - reach * into[0], py - reach * into[1]), (px + reach * out[0], py + reach * out[1])
         super()._straight(block, solid(*start, low, self.plane), rapid=False)
         if kind == "C" or not reach:
@@ -317,7 +316,7 @@ class MacroMachine(Machine):
             text = (
                 "Where the arc starts is not known after the move to the machine's point. Write a straight move first."
             )
-            self.log.stop("FN-WHERE", text, block.line, block.column("G"))
+            self.log.stop("FN-WHERE", text, block.at("G"))
         self._note_lost_height()
         words = dict(block.words)
         if "R" in words:
@@ -325,7 +324,7 @@ class MacroMachine(Machine):
                 words.pop(letter, None)
             if self._ends_where_it_starts(words):
                 text = "The arc with R ends where it starts: no move. A full circle needs I and J."
-                self.log.report(Severity.WARNING, "FN-R", text, block.line, block.column("R"))
+                self.log.warn("FN-R", text, block.at("R"))
                 return
             words["R"] *= abs(self.transform.factors[0])
         elif self.transform:
@@ -352,7 +351,7 @@ class MacroMachine(Machine):
             code = replace(code, value=830 - code.value)
         if code.action is CodeAction.UNAVAILABLE:
             text = f"G{code.value / 10:g} is not a code of this control; what it asks for is so anyway."
-            self.log.report(Severity.WARNING, "FN-G911", text, block.line, block.column("G", code.value))
+            self.log.warn("FN-G911", text, block.at("G", code.value))
             return
         super()._act(code, block)
 
@@ -365,7 +364,7 @@ class MacroMachine(Machine):
                 self._motion(block)
         elif code.action is CodeAction.SKIP:
             text = "Where a skip signal stops this move is not known; cutcomp runs it to its end."
-            self.log.report(Severity.WARNING, "FN-SKIP", text, block.line, block.column("G", 310))
+            self.log.warn("FN-SKIP", text, block.at("G", 310))
             self._straight(block, self.target(block.words), rapid=False)
         else:
             super()._run_non_modal(code, block)
@@ -403,14 +402,14 @@ class MacroMachine(Machine):
 
     def _check_order(self, code: int, block: Block) -> None:
         """Stop if a transform begins out of order: mirror, scaling, rotation; warn if one ends before the rotation."""
-        state, name, column = self.transform, f"G{code / 10:g}", block.column("G", code)
+        state, name, place = self.transform, f"G{code / 10:g}", block.at("G", code)
         before = "G68" if state.angle else "G51" if code == 511 and state.factors != UNSCALED else ""
         if before and code in (510, 511):
             text = f"cutcomp does not follow {name} while {before} is in force. Write it before {before}."
-            self.log.stop("BEYOND", text, block.line, column)
+            self.log.stop("BEYOND", text, place)
         if code in (500, 501) and state.angle and (state.mirror or state.factors != UNSCALED):
             text = f"{name} stands before G69; cutcomp assumes that the rotation goes on as programmed."
-            self.log.report(Severity.WARNING, "FN-ROTATION", text, block.line, column)
+            self.log.warn("FN-ROTATION", text, place)
 
     def _scale(self, block: Block) -> None:
         """Run G51 P, or G51 I J K of one size, negative ones for a mirror image about the center of scaling.
@@ -421,13 +420,13 @@ class MacroMachine(Machine):
         letters = [letter for letter in "IJK" if letter in words]
         if bool(letters) == ("P" in words) or (letters and not self.dialect.scales_axes):
             text = "cutcomp follows G51 with one P for all axes only. Write out the moves that it scales or mirrors."
-            self.log.stop("BEYOND", text, block.line, block.column("G", 510))
+            self.log.stop("BEYOND", text, block.at("G", 510))
         if letters:
             factors = self._axis_factors(block, letters)
         else:
             factor = self._factor(block, "P")
             if factor <= 0.0:
-                self.log.stop("PS0006", "The factor P of G51 must be larger than 0.", block.line, block.column("P"))
+                self.log.stop("PS0006", "The factor P of G51 must be larger than 0.", block.at("P"))
             factors = factor, factor, factor
         x, y, z = (self._absolute(axis, words) for axis in range(3))
         self.transform = replace(self.transform, factors=factors, fixed=(x, y, z))
@@ -438,39 +437,39 @@ class MacroMachine(Machine):
         factor = number / 1000 if whole_number else number
         if 0.0 < abs(factor) < LEAST_FACTOR:
             text = f"{letter} of G51 without a decimal point counts thousandths: here it is a factor of {factor:g}. "
-            self.log.stop("BEYOND", f"{text}Write {letter}1. or {letter}1000 for 1.", block.line, block.column(letter))
+            self.log.stop("BEYOND", f"{text}Write {letter}1. or {letter}1000 for 1.", block.at(letter))
         return factor
 
     def _axis_factors(self, block: Block, letters: Sequence[str]) -> Point3:
         x, y, z = (self._factor(block, letter) if letter in letters else 1.0 for letter in "IJK")
         if abs(x) != abs(y) or abs(x) != abs(z) or not x:
             text = "cutcomp follows G51 with I, J and K of one size only. Write out the moves that it scales."
-            self.log.stop("BEYOND", text, block.line, block.column(letters[0]))
+            self.log.stop("BEYOND", text, block.at(letters[0]))
         if len(letters) < len("IJK"):
             text = "cutcomp takes 1 for the axes without I, J or K. The control takes them from parameter 5421."
-            self.log.report(Severity.WARNING, "FN-SCALE", text, block.line, block.column(letters[0]))
+            self.log.warn("FN-SCALE", text, block.at(letters[0]))
         if self.transform.mirror and min(x, y, z) < 0.0:
             text = "cutcomp does not follow a mirror image by G51 and one by G51.1 together. Write out the moves."
-            self.log.stop("BEYOND", text, block.line, block.column("G", 510))
+            self.log.stop("BEYOND", text, block.at("G", 510))
         return x, y, z
 
     def _rotate(self, block: Block) -> None:
-        words, column = block.words, block.column("G", 680)
+        words, place = block.words, block.at("G", 680)
         if not {"I", "J", "K"}.isdisjoint(words):
             text = "cutcomp follows G68 with an angle R only. Write out the moves that it turns."
-            self.log.stop("BEYOND", text, block.line, column)
+            self.log.stop("BEYOND", text, place)
         if "R" not in words:
             text = "G68 has no R: the control may turn by the angle of a parameter or setting. Write R."
-            self.log.stop("BEYOND", text, block.line, column)
+            self.log.stop("BEYOND", text, place)
         if min(self.transform.factors) < 0.0:
             text = "cutcomp does not follow G68 under a mirror image by G51. Write out the moves."
-            self.log.stop("BEYOND", text, block.line, column)
+            self.log.stop("BEYOND", text, place)
         if self.incremental:
             text = "cutcomp takes R of G68 as an angle from 0. Under G91 the control may add it to the angle in force."
-            self.log.report(Severity.WARNING, "FN-ROTATION", text, block.line, column)
+            self.log.warn("FN-ROTATION", text, place)
         if self.transform.mirror or self.transform.factors != UNSCALED:
             text = "cutcomp assumes that the mirror image or scaling in force holds for the center of G68 too."
-            self.log.report(Severity.WARNING, "FN-ROTATION", text, block.line, column)
+            self.log.warn("FN-ROTATION", text, place)
         first, second, _ = self.plane.axes
         center = self._absolute(first, words), self._absolute(second, words)
         self.transform = replace(self.transform, angle=radians(words["R"]), center=center, plane=self.plane)
@@ -504,7 +503,7 @@ class MacroMachine(Machine):
         self.unknown.update(axes)
         if axes:
             text = "The machine's points are not known to cutcomp; the move there is not shown."
-            self.log.report(Severity.INFO, "HOME", text, block.line, block.column("G"))
+            self.log.inform("HOME", text, block.at("G"))
 
     def _select_system(self, code: int, block: Block) -> None:
         if code in HAAS_SYSTEMS:
@@ -517,21 +516,20 @@ class MacroMachine(Machine):
             super()._select_system(code, block)
             return
         if EXTENDED_SYSTEM + number not in self.origin.systems:
-            text = f"The offset of {name} {TAKEN_AS_ZERO}"
-            self.log.report(Severity.WARNING, "OFFSET", text, block.line, block.column("G"))
+            self.log.warn("OFFSET", f"The offset of {name} {TAKEN_AS_ZERO}", block.at("G"))
         self.set_origin(replace(self.origin, system=EXTENDED_SYSTEM + number))
 
     def _set_data(self, block: Block) -> None:
         """Run G10: set work offsets (L2, L20) or tool offsets (L1, L10 to L13)."""
         if "L" not in block.words and "R" in block.words:
             text = "G10 with R and without L sets a tool's offset on old controls only. Write L10, L11, L12 or L13."
-            self.log.stop("BEYOND", text, block.line, block.column("G", 100))
+            self.log.stop("BEYOND", text, block.at("G", 100))
         kind, number = whole(block.words.get("L", 2.0)), whole(block.words.get("P", -1.0))
         if kind == 50 or kind == 52:
             text = "The program writes parameters of the control, and what follows may be wrong. Set them by hand."
-            self.log.stop("FN-PARAMETER", text, block.line, block.column("L"))
+            self.log.stop("FN-PARAMETER", text, block.at("L"))
         if number is None or number < 0:
-            self.log.stop("PS0031", "G10 needs P and the number of the offset.", block.line, block.column("GP"))
+            self.log.stop("PS0031", "G10 needs P and the number of the offset.", block.at("GP"))
         if kind == 1 or kind in self.memories:
             self._set_offset(_LENGTH_OFFSET_L if kind == 1 else kind, number, block)
         elif kind == 2 and number <= 6:
@@ -540,7 +538,7 @@ class MacroMachine(Machine):
             self._set_work_offset(EXTENDED_SYSTEM + number, block)
         else:
             text = "G10 has L2 or L20 for work offsets, L1 and L10 to L13 for tool offsets. Correct L or P."
-            self.log.stop("PS0031", text, block.line, block.column("LP"))
+            self.log.stop("PS0031", text, block.at("LP"))
 
     def _set_work_offset(self, code: int, block: Block) -> None:
         old = self.origin.systems.get(code, ORIGIN)
@@ -552,11 +550,11 @@ class MacroMachine(Machine):
 
     def _set_offset(self, kind: int, number: int, block: Block) -> None:
         if "R" not in block.words:
-            self.log.stop("PS0032", "G10 needs R and the value of the offset.", block.line, block.column("GL"))
+            self.log.stop("PS0032", "G10 needs R and the value of the offset.", block.at("GL"))
         self._write_offset(kind, number, block.words["R"] * self.scale / self._radii_in(kind), add=self.incremental)
         if kind not in (_RADIUS_OFFSET_L, _RADIUS_WEAR_L) and not self.separate:
             text = "Lengths and radii are taken to share one memory, so this value is a radius for D too."
-            self.log.report(Severity.INFO, "FN-SHARED", text, block.line, block.column("L"))
+            self.log.inform("FN-SHARED", text, block.at("L"))
 
     def _radii_in(self, kind: int) -> float:
         """Return how many radii a value of this L is; warn once if it is 2, a diameter."""
@@ -564,7 +562,7 @@ class MacroMachine(Machine):
             return 1.0
         if not self.log.has("HAAS-DIAMETER"):
             text = "D is taken as a diameter (setting 40 DIAMETER). With RADIUS the control uses twice this offset."
-            self.log.report(Severity.WARNING, "HAAS-DIAMETER", text, self.line, 1)
+            self.log.warn("HAAS-DIAMETER", text, Spot(self.line))
         return 2.0
 
     def _write_offset(self, kind: int, number: int, value: float, *, add: bool = False) -> None:
@@ -628,7 +626,7 @@ class MacroMachine(Machine):
 
     def _report_unknown_value(self, key: int) -> None:
         text = f"The control knows #{key} only at run time; cutcomp takes nothing or 0."
-        self.log.report(Severity.WARNING, "FN-SYSTEM", text, self.line, 1)
+        self.log.warn("FN-SYSTEM", text, Spot(self.line))
 
     def _refuse_unknown_memory(self, key: int) -> None:
         """Refuse a variable whose meaning depends on the control's model or its parameters."""

@@ -9,12 +9,12 @@ from collections.abc import Mapping
 from dataclasses import dataclass, field, replace
 from typing import Final
 
-from core.controls.control_run import Log
+from core.controls.control_run import Log, Place
 from core.controls.control_tools import CutterTool, ToolTable, missing_tool
 from core.controls.iso.dialect import Dialect
 from core.controls.iso.reader import Block, ToolData, whole_word
 from core.controls.moves import Plane, Point3
-from core.finding import Finding, Severity
+from core.finding import Severity
 from core.tolerance import GOUGE
 from core.units import Unit
 
@@ -174,11 +174,10 @@ class ModalState:
 
     def feed_over(self, block: Block, length: float) -> float:
         """Return the feed of a move of this length, in millimeters per minute; 0 if it is not known."""
-        column = block.column("FXYZIJ")
+        place = block.at("FXYZIJ")
         if self.rate == INVERSE_TIME:
             if "F" not in block.words:
-                text = "Under G93 every move at feed needs its own F; write it in this block."
-                self.log.stop("FEED", text, block.line, column)
+                self.log.stop("FEED", "Under G93 every move at feed needs its own F; write it in this block.", place)
             return block.words["F"] * length
         if not self.feed:
             self.no_feed(block)
@@ -186,16 +185,16 @@ class ModalState:
         if not self.speed or self.surface_speed:
             text = "G95 needs a known spindle speed. Program S in rpm."
             if self.dialect.feed_needed and not self.surface_speed:
-                self.log.stop("FEED", text, block.line, column)
-            self.log.report(Severity.WARNING, "FEED", text, block.line, column)
+                self.log.stop("FEED", text, place)
+            self.log.warn("FEED", text, place)
         return 0.0 if self.surface_speed else self.feed * self.speed
 
     def no_feed(self, block: Block) -> None:
         """Report a move at feed without a feed; stop the run on a control that needs one."""
         text = "There is no feed; write F before the first move at feed."
         if self.dialect.feed_needed:
-            self.log.stop("FEED", text, block.line, block.column("XYZIJ"))
-        self.log.report(Severity.WARNING, "FEED", text, block.line, block.column("XYZIJ"))
+            self.log.stop("FEED", text, block.at("XYZIJ"))
+        self.log.warn("FEED", text, block.at("XYZIJ"))
 
     def tool_number(self, block: Block) -> int | None:
         """Return the number of a block's tool data or T word, None without either."""
@@ -210,7 +209,7 @@ class ModalState:
         if block.data is not None:
             self._enter_tool_data(block.data, block)
         if number and self.dialect.table_needed and self.tools.get(number) is None:
-            self.log.stop("TOOL", missing_tool(number), block.line, block.column("T"), tool=number)
+            self.log.stop("TOOL", missing_tool(number), block.at("T"), tool=number)
         self.next_tool = number
         if self.dialect.loads_at_t:
             self.tool = number
@@ -224,10 +223,10 @@ class ModalState:
         self.tools = self.tools.with_tools(ToolTable.of(tool))
         if data.length is None and data.diameter is None:
             text = "This tool data sets neither length nor diameter; both stay as they are."
-            self.log.report(Severity.INFO, "TOOL", text, block.line, block.column("T"))
+            self.log.inform("TOOL", text, block.at("T"))
 
     def nothing_compensated(
-        self, why: str, line: int, column: int, *, code: str = "RADIUS0", severity: Severity = Severity.WARNING
+        self, why: str, place: Place, *, code: str = "RADIUS0", severity: Severity = Severity.WARNING
     ) -> None:
         """Report that nothing is compensated and how deep the tool cuts; `why` says what to do, or what is missing."""
         tools = self.tools.tools
@@ -237,9 +236,9 @@ class ModalState:
             diameter = abs(tool.diameter_mm(self.unit))
             cut, lengths = f"tool {tool.number}, diameter {{0}}, cuts {{1}} too deep", (diameter, diameter / 2)
         text = f"Nothing is compensated: {cut} along the contour, unless the program is the tool's center path. {why}"
-        self.log.add(Finding(code, severity, text, lengths=lengths, line=line, column=column))
+        self.log.report(severity, code, text, place, lengths=lengths)
 
-    def compare_offset(self, radius: float, offset: str, line: int, column: int) -> None:
+    def compare_offset(self, radius: float, offset: str, place: Place) -> None:
         """Report an offset's radius (millimeters) that differs from that of the tool in the spindle, once for each."""
         tool = self.tools.get(self.tool)
         actual = 0.0 if tool is None else abs(tool.diameter_mm(self.unit)) / 2
@@ -252,7 +251,4 @@ class ModalState:
             effect = "cuts {value} too deep, unless the program is the tool's center path"
         text = f"{offset} has the radius {{0}}, tool {self.tool} has {{1}}: the cutter {effect}."
         severity = Severity.WARNING if difference < 0.0 else Severity.INFO
-        lengths = (radius, actual)
-        self.log.add(
-            Finding("OFFSET", severity, text, value=abs(difference), lengths=lengths, line=line, column=column)
-        )
+        self.log.report(severity, "OFFSET", text, place, lengths=(radius, actual), value=abs(difference))

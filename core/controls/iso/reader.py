@@ -12,7 +12,7 @@ from dataclasses import dataclass, field
 from math import inf
 from typing import Final
 
-from core.controls.control_run import Log
+from core.controls.control_run import Log, Spot
 from core.controls.iso.code_support import CONTROLS_WITH_EXPRESSIONS, CONTROLS_WITH_JUMPS, only_on
 from core.controls.iso.expressions import (
     COMMENT_GAP,
@@ -25,7 +25,6 @@ from core.controls.iso.expressions import (
     not_a_word,
 )
 from core.controls.program_text import capitals, quoted
-from core.finding import Severity
 from core.tolerance import LARGEST_COORDINATE
 
 NUMBER: Final = r"[-+]?(?:[0-9]++(?:\.[0-9]*+)?|\.[0-9]++)"
@@ -104,16 +103,21 @@ class Block:
         pairs = _PAIR.finditer(without_comments(capitals(self.text)))
         return [Word(pair[1], pair[2], self.start + pair.start() + 1) for pair in pairs]
 
-    def column(self, letters: str, code: int | None = None) -> int:
-        """Return the column, from 1, of the first word with one of these letters and, if given, `code` in tenths."""
-        for letter, number, at in self.written():
-            if letter in letters and (code is None or tenths(float(number)) == code):
-                return at
+    @property
+    def column(self) -> int:
+        """The column, from 1, at which the block begins."""
         return self.start + 1
 
-    def side_column(self) -> int:
-        """Return the column of the code that turns compensation on."""
-        return self.column("G", next((code for code in self.g if code in COMPENSATION_CODES), None))
+    def at(self, letters: str, code: int | None = None) -> Spot:
+        """Return the place of the first word with one of these letters and, if given, `code` in tenths."""
+        for letter, number, column in self.written():
+            if letter in letters and (code is None or tenths(float(number)) == code):
+                return Spot(self.line, column)
+        return Spot(self.line, self.column)
+
+    def at_side(self) -> Spot:
+        """Return the place of the code that turns compensation on."""
+        return self.at("G", next((code for code in self.g if code in COMPENSATION_CODES), None))
 
 
 def tenths(value: float) -> int | None:
@@ -136,7 +140,7 @@ def whole_word(
     """Return the value of a word that must be a whole number within limits; any other stops the run."""
     number = whole(block.words.get(letter, default))
     if number is None or not least <= number <= most:
-        log.stop(rule, text, block.line, block.column(letter))
+        log.stop(rule, text, block.at(letter))
     return number
 
 
@@ -157,7 +161,7 @@ def read_line(
     """
     upper = capitals(text)
     if COMMENT_GAP in text:
-        log.stop("WORD", not_a_word(COMMENT_GAP), line, text.index(COMMENT_GAP) + 1)
+        log.stop("WORD", not_a_word(COMMENT_GAP), Spot(line, text.index(COMMENT_GAP) + 1))
     if syntax.strict:
         _check_strictly(upper, line, log)
     if _CLEAN.fullmatch(upper):
@@ -171,7 +175,7 @@ def check_length(text: str, line: int, log: Log) -> None:
     """Stop the run at a line that is too long for a strict control."""
     if len(text) > LONGEST_STRICT:
         message = f"The line has more than {LONGEST_STRICT} characters, which this control does not read. Shorten it."
-        log.stop("WORD", message, line, LONGEST_STRICT + 1)
+        log.stop("WORD", message, Spot(line, LONGEST_STRICT + 1))
 
 
 def _check_strictly(upper: str, line: int, log: Log) -> None:
@@ -184,7 +188,7 @@ def _check_strictly(upper: str, line: int, log: Log) -> None:
     first, count = pairs[0][0], sum(letter == "N" for letter, _ in pairs)
     if count == 1 and (first != "N" or pairs[0][1].endswith(".")):
         message = "N stands first in a line, and its number has no point at its end. Write it so, or delete it."
-        log.stop("WORD", message, line, bare.index("N") + 1)
+        log.stop("WORD", message, Spot(line, bare.index("N") + 1))
 
 
 def _pieces(text: str, line: int, log: Log, syntax: Syntax) -> Iterator[Block]:
@@ -195,9 +199,8 @@ def _pieces(text: str, line: int, log: Log, syntax: Syntax) -> Iterator[Block]:
         if plain or start + len(part) < len(text):
             yield from _read_closely(Block(line, part, start), bare, log, syntax)
         else:
-            column = start + 1 + len(part) - len(part.lstrip())
-            text = f"Text after the end of the block is ignored: {quoted(part)}"
-            log.report(Severity.INFO, "TEXT", text, line, column)
+            place = Spot(line, start + 1 + len(part) - len(part.lstrip()))
+            log.inform("TEXT", f"Text after the end of the block is ignored: {quoted(part)}", place)
 
 
 def between_semicolons(line: str) -> Iterator[tuple[int, str]]:
@@ -224,14 +227,14 @@ def _read_closely(
     if not syntax.blanks and block.text.count("(") > 1:
         _without_blanks(block, log)
     if bare.lstrip().startswith("/"):
-        log.report(Severity.INFO, "SKIP", "Block skip is assumed off, so this block runs.", block.line, 1)
+        log.inform("SKIP", "Block skip is assumed off, so this block runs.", block)
         bare = bare.replace("/", " ", 1)
     if not bare.strip() or bare.strip() == "%":
         return [block] if block.data else []
     if branch := _BRANCH.match(bare):
         others = only_on(CONTROLS_WITH_JUMPS)
         text = f"cutcomp follows no {branch[1]} on this control. Write the blocks out as they run. {others}"
-        log.stop("BRANCH", text, block.line, block.start + branch.start(1) + 1)
+        log.stop("BRANCH", text, Spot(block.line, block.start + branch.start(1) + 1))
     if values is not None and _EXPRESSION.search(bare):
         return _evaluated_block(block, log, values)
     if _CLEAN.fullmatch(bare) is None:
@@ -246,7 +249,7 @@ def _evaluated_block(block: Block, log: Log, values: MacroParameters) -> list[Bl
     """Return the block of a line with parameters or expressions; none if the line only sets parameters."""
     marked = without_comments(capitals(block.text), COMMENT_GAP)
     skip = len(marked) - len(marked.lstrip()) + 1 if marked.lstrip().startswith("/") else 0
-    block.evaluated = evaluated_line(CompactText.of(marked[skip:], block.start + skip), block.line, values, log)
+    block.evaluated = evaluated_line(CompactText.of(marked[skip:], block.line, block.start + skip), values, log)
     return [fill_words(block, block.evaluated, log)] if block.evaluated else []
 
 
@@ -255,7 +258,7 @@ def _without_blanks(block: Block, log: Log) -> str:
     nested = _NESTED.search(block.text)
     if nested:
         text = "A comment begins inside a comment; close the first one."
-        log.stop("COMMENT", text, block.line, block.start + nested.end())
+        log.stop("COMMENT", text, Spot(block.line, block.start + nested.end()))
     bare = without_comments(capitals(block.text), COMMENT_GAP)
     return bare.replace(" ", "").replace("\t", "").replace(COMMENT_GAP, " ")
 
@@ -274,25 +277,23 @@ def fill_words(
         if letter in "GM":
             code = tenths(float(number))
             if code is None:
-                column = block.column(letter)
-                log.stop("CODE", f"{letter}{quoted(number)} is not a code of any control.", block.line, column)
+                place = block.at(letter)
+                log.stop("CODE", f"{letter}{quoted(number)} is not a code of any control.", place)
             (block.g if letter == "G" else block.m).append(code)
             continue
         if letter in words and not (letter in "IJK" and syntax.last_counts and not {650, 660, 661}.isdisjoint(block.g)):
             _report_twice(letter, block, log, syntax)
         words[letter] = value = float(number)
         if not -LARGEST_COORDINATE < value < LARGEST_COORDINATE:
-            text = f"The number of {letter} is too large for any machine."
-            log.stop("NUMBER", text, block.line, block.column(letter))
+            log.stop("NUMBER", f"The number of {letter} is too large for any machine.", block.at(letter))
     return block
 
 
 def _report_twice(letter: str, block: Block, log: Log, syntax: Syntax) -> None:
-    column = [word.column for word in block.written() if word.letter == letter][1]
+    place = Spot(block.line, [word.column for word in block.written() if word.letter == letter][1])
     if not syntax.last_counts:
-        log.stop("TWICE", f"{letter} is written twice in this block; keep one.", block.line, column)
-    text = f"{letter} is written twice in this block; the control takes the last one."
-    log.report(Severity.WARNING, "TWICE", text, block.line, column)
+        log.stop("TWICE", f"{letter} is written twice in this block; keep one.", place)
+    log.warn("TWICE", f"{letter} is written twice in this block; the control takes the last one.", place)
 
 
 def _fault(block: Block, bare: str, log: Log, syntax: Syntax) -> None:
@@ -300,30 +301,26 @@ def _fault(block: Block, bare: str, log: Log, syntax: Syntax) -> None:
     clean = _CLEAN.match(bare)
     at = clean.end() if clean else 0
     at += len(bare[at:]) - len(bare[at:].lstrip(" \t"))
-    rest, column = block.text[at:], block.start + at + 1
+    rest, place = block.text[at:], Spot(block.line, block.start + at + 1)
     if rest and not rest[0].isprintable():
-        text = f"An invisible character (U+{ord(rest[0]):04X}) stands here. Delete it."
-        log.stop("WORD", text, block.line, column)
+        log.stop("WORD", f"An invisible character (U+{ord(rest[0]):04X}) stands here. Delete it.", place)
     if rest.startswith(",") and rest[1:2].isdigit():
-        log.stop("WORD", "A comma is no decimal point here. Write a point.", block.line, column)
+        log.stop("WORD", "A comma is no decimal point here. Write a point.", place)
     if syntax.corners and rest.startswith(","):
-        text = f"cutcomp does not follow {quoted(rest)} on this control. Write the corner's moves."
-        log.stop("BEYOND", text, block.line, column)
+        log.stop("BEYOND", f"cutcomp does not follow {quoted(rest)} on this control. Write the corner's moves.", place)
     if syntax.strict and rest[:1] in POLAR:
-        log.stop("BEYOND", POLAR_TEXT, block.line, column)
+        log.stop("BEYOND", POLAR_TEXT, place)
     if rest.startswith("("):
-        log.stop("COMMENT", "The comment is not closed; write the closing bracket.", block.line, column)
+        log.stop("COMMENT", "The comment is not closed; write the closing bracket.", place)
     if rest.startswith("/"):
         text = "cutcomp takes / only at the beginning of a block on this control. Move it there, or remove it."
-        log.stop("WORD", text, block.line, column)
+        log.stop("WORD", text, place)
     if block.text.lstrip().startswith("/") and rest[:1].isdigit():
-        text = "cutcomp knows no block skip with a number on this control. Write / alone."
-        log.stop("WORD", text, block.line, column)
+        log.stop("WORD", "cutcomp knows no block skip with a number on this control. Write / alone.", place)
     if any(character in rest[:80] for character in "#[<="):
         text = f"{quoted(rest)} is an expression; cutcomp evaluates none for this control. Write the number."
-        text = f"{text} {only_on(CONTROLS_WITH_EXPRESSIONS)}"
-        log.stop("MACRO", text, block.line, column)
-    log.stop("WORD", f"{quoted(rest)} is not a word. Write a letter and a number.", block.line, column)
+        log.stop("MACRO", f"{text} {only_on(CONTROLS_WITH_EXPRESSIONS)}", place)
+    log.stop("WORD", f"{quoted(rest)} is not a word. Write a letter and a number.", place)
 
 
 _WORD_ANYWHERE: Final = re.compile(r"[A-Za-z][ \t]*+[-+]?[0-9.#\[<]")

@@ -20,7 +20,6 @@ from core.controls.klartext import lead_curves
 from core.controls.klartext.lead_curves import Lead, LeadShape
 from core.controls.klartext.m120 import PathAhead, Unreached, path_ahead
 from core.controls.moves import Plane, Point3, Tape, flat, solid
-from core.finding import Severity
 from core.geometry.path import Path
 from core.geometry.piece import Arc, Point, Side
 from core.tolerance import JOINED
@@ -202,7 +201,7 @@ class CenterPathRecorder:
                 self._contour(step)
             case Role.FREE:
                 if self.entry and self.entry.plane is not step.plane:
-                    self._stop("HE7", NO_CONTOUR, self.entry)
+                    self.log.stop("HE7", NO_CONTOUR, self.entry.element)
                 if self.entry:  # an approach without compensation
                     goal = elements.offset_start(step.element, self.entry.offset)
                     self._arrive(self.entry, goal, step.element.start_direction)
@@ -246,7 +245,7 @@ class CenterPathRecorder:
         if self.held:
             self._finish(self.held, elements.offset_end(self.held.element, self.held.offset))
         if self.entry:
-            self._stop("HE7", NO_CONTOUR, self.entry)
+            self.log.stop("HE7", NO_CONTOUR, self.entry.element)
 
     def _arrive(self, entry: ProgrammedStep, goal: Point, direction: Point) -> None:
         """Run the entry to the point square to the first element's start, where the element has this direction."""
@@ -261,7 +260,7 @@ class CenterPathRecorder:
         x, y, height = self.record.at(step)
         curve = lead_curves.approach(lead, (x, y), goal, direction, step.hand)
         if curve is None:
-            self._stop("HE5", INSIDE_CIRCLE, step, lead.radius)
+            self.log.stop("HE5", INSIDE_CIRCLE, step.element, lengths=(lead.radius,))
         depth = step.element.end_height
         if lead.shape is LeadShape.LCT:
             self.record.line(curve.point, depth, step)
@@ -275,7 +274,7 @@ class CenterPathRecorder:
         x, y, height = self.record.at(step)
         curve = lead_curves.departure(lead, (x, y), step.element.end, step.element.start_direction, step.hand)
         if curve is None:
-            self._stop("HE5", INSIDE_CIRCLE, step, lead.radius)
+            self.log.stop("HE5", INSIDE_CIRCLE, step.element, lengths=(lead.radius,))
         self._run_curve(curve.point, height, curve, step)
         if lead.shape is LeadShape.LCT:
             self.record.line(step.element.end, height, step)
@@ -313,7 +312,7 @@ class CenterPathRecorder:
             why = "the {0}-radius tool cannot enter the corner before this block"
             self._stop_too_large(after, why, abs(offset))
         if joint.center is not None and self.depths:
-            self._report(Severity.INFO, "INTERPRETED", DEPTH_FIRST, self.depths[0])
+            self.log.inform("INTERPRETED", DEPTH_FIRST, self.depths[0].element)
         self._finish(before, joint.end)
         if joint.center is not None:
             height, turn = self.record.at(before)[2], -1 if offset > 0.0 else 1
@@ -377,7 +376,7 @@ class CenterPathRecorder:
                 self.record.note(*steps[: path.row])
             self._stop_too_large(steps[path.row], path.text, abs(steps[0].offset))
         for row in path.left_out:
-            self._report(Severity.WARNING, "M120", LEFT_OUT, steps[row], abs(steps[0].offset))
+            self.log.warn("M120", LEFT_OUT, steps[row].element, lengths=(abs(steps[0].offset),))
         along = path.path.part(0, len(path.path) - int(goes_on))
         self._run_along(steps, path, along)
         self.record.note(*(steps[:-1] if goes_on else steps))
@@ -397,17 +396,12 @@ class CenterPathRecorder:
             else:
                 self.record.line(piece.end, height, step)
 
-    def _report(self, severity: Severity, code: str, text: str, step: ProgrammedStep, *lengths: float) -> None:
-        self.log.report(severity, code, text, step.element.line, step.element.column, lengths=lengths)
-
-    def _stop(self, code: str, text: str, step: ProgrammedStep, *lengths: float) -> NoReturn:
-        self.log.stop(code, text, step.element.line, step.element.column, lengths=lengths)
-
     def _stop_m120(self, step: ProgrammedStep) -> NoReturn:
-        self._stop("WORD", NOT_UNDER_M120, step)
+        self.log.stop("WORD", NOT_UNDER_M120, step.element)
 
     def _stop_too_large(self, step: ProgrammedStep, why: str, *lengths: float) -> NoReturn:
-        self._stop("HE3", f"Tool radius too large: {why}. Take a smaller tool or open the contour.", step, *lengths)
+        text = f"Tool radius too large: {why}. Take a smaller tool or open the contour."
+        self.log.stop("HE3", text, step.element, lengths=lengths)
 
 
 def _at_its_end(element: Element) -> Element:

@@ -7,7 +7,7 @@ from collections.abc import Callable, Mapping, Sequence
 from math import isclose
 from typing import Final
 
-from core.controls.control_run import NOT_RUN_TEXT, AlarmError, ControlRun, Log
+from core.controls.control_run import NOT_RUN_TEXT, AlarmError, ControlRun, Log, Spot
 from core.controls.control_tools import ToolTable
 from core.controls.klartext import cycles, leads, m_functions, path_functions, setup_blocks
 from core.controls.klartext.center_path import CenterPathRecorder, Record
@@ -15,7 +15,6 @@ from core.controls.klartext.corner_rounding import CornerBuffer
 from core.controls.klartext.reader import Block, read_blocks
 from core.controls.klartext.state import State
 from core.controls.program_text import lines_of, quoted
-from core.finding import Severity
 from core.progress import Progress, silent
 
 MAX_REPEATED_BLOCKS: Final = 50_000
@@ -81,12 +80,12 @@ def _run_blocks(state: State, progress: Progress) -> None:
             progress(state.next / len(state.blocks))
         if left < 0:
             text = f"More than {MAX_REPEATED_BLOCKS} repeated blocks: the run ends here, not judged. Repeat fewer."
-            state.stop("LIMIT", text, block)
+            state.log.stop("LIMIT", text, block)
         if block.skip:
-            state.report(Severity.INFO, "SKIP", "Block skip is assumed off, so this block runs.", block)
+            state.log.inform("SKIP", "Block skip is assumed off, so this block runs.", block)
         if block.more and not (block.head == "CYCL" and _WITH_VALUES.match(block.body)):
             text = "cutcomp reads a ~, which continues a block, only in CYCL DEF with Q parameters. Write one line."
-            state.stop("BEYOND", text, block)
+            state.log.stop("BEYOND", text, block)
         BLOCK_FUNCTIONS.get(block.head, setup_blocks.unknown)(state, block)
         if state.cycle_due:
             state.cycle_due = False
@@ -99,16 +98,16 @@ def _check_end(state: State) -> None:
     last = state.blocks[-1] if state.blocks else Block(1, "", "", 1, skip=False)
     if not state.begun:
         text = "BEGIN PGM is missing; millimeters are assumed. Write BEGIN PGM PART MM as the first block."
-        state.log.report(Severity.WARNING, "PROGRAM", text, 1, 1)
+        state.log.warn("PROGRAM", text, Spot(1))
     elif not any(block.head == "END" for block in reversed(state.blocks)):
-        state.report(Severity.WARNING, "PROGRAM", "END PGM is missing; the file may be cut off.", last)
+        state.log.warn("PROGRAM", "END PGM is missing; the file may be cut off.", last)
     end = next((index for index, block in enumerate(state.blocks) if block.head == "END"), len(state.blocks))
     not_run = next((block for block in state.blocks[end + 1 :] if block.head.isalpha()), None)
     if not_run is not None:
-        state.report(Severity.WARNING, "NOT_RUN", NOT_RUN_TEXT, not_run)
+        state.log.warn("NOT_RUN", NOT_RUN_TEXT, not_run)
     if state.applied and state.side:
         text = "The program ends under compensation. Cancel it with an L block with R0, or with DEP."
-        state.report(Severity.WARNING, "PROGRAM", text, last)
+        state.log.warn("PROGRAM", text, last)
 
 
 def _labels(blocks: Sequence[Block]) -> Mapping[str, int]:
@@ -124,7 +123,7 @@ def _label(state: State, block: Block) -> None:
     """LBL n marks where to jump to; LBL 0 ends a subprogram."""
     name = _LABEL.match(block.body)
     if name is None:
-        state.stop("LABEL", "LBL needs a number or a name in quotes.", block)
+        state.log.stop("LABEL", "LBL needs a number or a name in quotes.", block)
     if name[1] == "0" and state.calls:
         state.next = state.calls.pop()[1]
 
@@ -142,14 +141,14 @@ def _call(state: State, block: Block) -> None:
     else:
         if len(state.calls) >= MAX_CALL_DEPTH or any(name == call[1] for name, _ in state.calls):
             text = f"LBL {quoted(call[1])} calls itself, or more than {MAX_CALL_DEPTH} calls are nested. Write LBL 0."
-            state.stop("LABEL", text, block)
+            state.log.stop("LABEL", text, block)
         state.calls.append((call[1], state.next))
         _jump(state, block, call[1])
 
 
 def _jump(state: State, block: Block, name: str) -> None:
     if name not in state.labels:
-        state.stop("LABEL", f"There is no LBL {quoted(name)} in this program.", block)
+        state.log.stop("LABEL", f"There is no LBL {quoted(name)} in this program.", block)
     state.next = state.labels[name]
 
 
@@ -157,7 +156,7 @@ def _parameter(state: State, block: Block) -> None:
     """Q1 = formula sets a Q parameter."""
     assignment = _SET.match(block.body)
     if assignment is None:
-        state.stop("Q", "A Q parameter needs = and a formula.", block)
+        state.log.stop("Q", "A Q parameter needs = and a formula.", block)
     state.parameters[f"{block.head}{assignment[1]}"] = state.value(assignment[2], block)
 
 
@@ -186,7 +185,7 @@ def _pass_over(state: State, block: Block, number: int, rest: str) -> None:
     text = f"FN {number} is skipped; it moves nothing."
     if names:
         text = f"FN {number} is skipped: only the control knows what it reads. {quoted(names[0])} has no value here."
-    state.report(Severity.INFO, "IGNORED", text, block)
+    state.log.inform("IGNORED", text, block)
 
 
 def _condition(state: State, block: Block) -> None:

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 from math import hypot
-from typing import Final, NoReturn
+from typing import Final
 
 from core.controls.compensation import elements
 from core.controls.compensation.elements import Element, arc_element, line_element
@@ -39,7 +39,7 @@ class CornerBuffer:
         """Take the next step."""
         if step.role is not Role.CONTOUR and step.role is not Role.FREE:
             if self.pending and self.pending.rounded:
-                self._stop("BEYOND", self.pending, NO_LEAD)
+                self.center.log.stop("BEYOND", NO_LEAD, self.pending)
             self.flush()
             self.center.push(step)
             return
@@ -52,7 +52,7 @@ class CornerBuffer:
     def flush(self) -> None:
         """Hand on the waiting element, because no RND or CHF follows it."""
         if self.pending:
-            self._stop("CORNER", self.pending, NOT_BETWEEN)
+            self.center.log.stop("CORNER", NOT_BETWEEN, self.pending)
         step, self.step = self.step, None
         if step:
             self.center.push(step)
@@ -61,17 +61,14 @@ class CornerBuffer:
         """Hand on the waiting element and its rounding or chamfer; return the next element, cut short."""
         first, self.step, self.pending = self.step, None, None
         if first is None or first.role is not second.role or first.plane is not second.plane:
-            self._stop("CORNER", pending, NOT_BETWEEN)
+            self.center.log.stop("CORNER", NOT_BETWEEN, pending)
         parts = (rounding if pending.rounded else chamfer)(first.element, second.element, pending.size)
         if isinstance(parts, str):
-            self._stop("CORNER", pending, parts)
+            self.center.log.stop("CORNER", parts, pending)
         between = parts[1]._replace(line=pending.line, column=pending.column, rapid=False, feed=pending.feed)
         self.center.push(first._replace(element=parts[0], corner=KLARTEXT_CORNERS))
         self.center.push(first._replace(element=between, corner=KLARTEXT_CORNERS))
         return second._replace(element=parts[2])
-
-    def _stop(self, code: str, pending: PendingCorner, text: str) -> NoReturn:
-        self.center.log.stop(code, text, pending.line, pending.column)
 
 
 Blended = tuple[Element, Element, Element]

@@ -67,7 +67,7 @@ def cycle(state: State, block: Block) -> None:
     if head is not None and head[1] == "CALL" and not number:
         _call_block(state, block)
     elif head is None or head[1] == "CALL" or not number:
-        state.stop("WORD", "CYCL needs DEF with a number, or CALL.", block)
+        state.log.stop("WORD", "CYCL needs DEF with a number, or CALL.", block)
     elif number in _OLD_CYCLES and head[3] == "0":
         pass  # only the cycle's name; what it does comes in the blocks after it
     elif number in (7, 8, 10) and (head[3] or number == 7):
@@ -76,14 +76,12 @@ def cycle(state: State, block: Block) -> None:
         elif head[3]:
             shift(state, rest)
     elif number in _NEUTRAL and _is_neutral(state, block, number, rest.body):
-        text = f"Cycle {number} is skipped: these values turn, mirror and scale nothing."
-        state.report(Severity.INFO, "IGNORED", text, block)
+        state.log.inform("IGNORED", f"Cycle {number} is skipped: these values turn, mirror and scale nothing.", block)
     elif number == 247 and _at_the_start(state):
-        text = "Cycle 247 selects the workpiece datum. All positions count from it."
-        state.report(Severity.INFO, "IGNORED", text, block)
+        state.log.inform("IGNORED", "Cycle 247 selects the workpiece datum. All positions count from it.", block)
     elif number in _TRANSFORM_CYCLES or number >= _FIRST_PROBE:
         text = f"Cycle {number} moves or transforms the contour, which is not supported. Write out its moves."
-        state.stop("BEYOND", text, block)
+        state.log.stop("BEYOND", text, block)
     else:
         _define(state, block, number)
 
@@ -92,27 +90,26 @@ def _transform(state: State, block: Block, number: int) -> None:
     """CYCL DEF 8.1 X Y mirrors axes, CYCL DEF 10.1 ROT or IROT turns the plane; without axes or at 0 that ends."""
     if state.applied or state.side:
         text = f"Cycle {number} under compensation is not supported. Cancel it in an L block with R0 before."
-        state.stop("CYCLE", text, block)
+        state.log.stop("CYCLE", text, block)
     before, datum = state.transform, state.flat(state.shift)[0]
     mirrored, angle = before.mirrored, before.angle
     if number == 8:
         names = _MIRRORED_AXES.findall(block.body)
         axes = {"XYZ".index(name) for name in names}
         if _MIRRORED_AXES.sub("", block.body).strip() or state.plane.axes[2] in axes:
-            state.stop("BEYOND", "cutcomp follows cycle 8 with axes of the working plane only, as in X Y.", block)
+            state.log.stop("BEYOND", "cutcomp follows cycle 8 with axes of the working plane only, as in X Y.", block)
         mirrored = state.plane.axes[0] in axes, state.plane.axes[1] in axes
     else:
         words = _ROTATION.fullmatch(block.body)
         if words is None:
-            state.stop("WORD", "Cycle 10 needs ROT and an angle. Write ROT+30.", block)
+            state.log.stop("WORD", "Cycle 10 needs ROT and an angle. Write ROT+30.", block)
         angle = state.value(words[2], block) + (angle if words[1] else 0.0)
     if any(mirrored) and angle:
         text = "cutcomp does not follow a mirror image and a rotation together. Write out the moves."
-        state.stop("BEYOND", text, block)
+        state.log.stop("BEYOND", text, block)
     transform = Transform(state.plane, datum, mirrored, angle)
     if before.neutral and transform.neutral:
-        text = f"Cycle {number} is skipped: these values turn, mirror and scale nothing."
-        state.report(Severity.INFO, "IGNORED", text, block)
+        state.log.inform("IGNORED", f"Cycle {number} is skipped: these values turn, mirror and scale nothing.", block)
     state.transformed(transform)
 
 
@@ -135,7 +132,7 @@ def _define(state: State, block: Block, number: int) -> None:
     if number not in _CYCLES_WITHOUT_CALL:
         state.cycle = number
         text = f"Cycle {number} is skipped: it moves nothing before it is called."
-    state.report(Severity.INFO, "IGNORED", text, block)
+    state.log.inform("IGNORED", text, block)
 
 
 def _take_values(state: State, block: Block) -> None:
@@ -182,19 +179,19 @@ def _call_block(state: State, block: Block) -> None:
 def call(state: State, block: Block) -> None:
     """Call the cycle defined last, for CYCL CALL or M99."""
     if state.cycle is None:
-        state.stop("CYCLE", "No cycle is defined before this call. Write its CYCL DEF before.", block)
+        state.log.stop("CYCLE", "No cycle is defined before this call. Write its CYCL DEF before.", block)
     if state.cycle == _PROGRAM_CALL_CYCLE:
-        state.stop("BEYOND", "Cycle 12 runs another file. Copy its blocks in.", block)
+        state.log.stop("BEYOND", "Cycle 12 runs another file. Copy its blocks in.", block)
     if state.cycle in _CONTOUR_CYCLES:
         text = f"Cycle {state.cycle} mills a contour by itself, which is not supported. Nothing of it is judged."
-        state.stop("BEYOND", text, block)
+        state.log.stop("BEYOND", text, block)
     _pass_over(state, block, state.cycle, _end_height(state))
 
 
 def _refuse_compensated(state: State, block: Block) -> None:
     if state.applied or state.side:
         text = "A cycle under compensation is not supported. Cancel it in an L block with R0 before."
-        state.stop("CYCLE", text, block)
+        state.log.stop("CYCLE", text, block)
 
 
 def _pass_over(state: State, block: Block, number: int, height: float | None, *, pattern: bool = False) -> None:
@@ -210,7 +207,7 @@ def _pass_over(state: State, block: Block, number: int, height: float | None, *,
         severity, template = Severity.INFO, SKIPPED_TEXT
     state.reported_cycles.add(number)
     if number in _RETURNING_CYCLES and not pattern:
-        state.report(severity, "CYCLE", template.format(number, "it ends where it began"), block)
+        state.log.report(severity, "CYCLE", template.format(number, "it ends where it began"), block)
         return
     third = state.plane.axes[2]
     if number in _DRILLING_CYCLES and height is not None:
@@ -221,10 +218,10 @@ def _pass_over(state: State, block: Block, number: int, height: float | None, *,
             state.push(ProgrammedStep(Role.DEPTH, element, 0.0, state.plane))
         state.position = end
         state.now_known({third})
-        state.report(Severity.INFO, "CYCLE", SKIPPED_TEXT.format(number, "it ends above its hole"), block)
+        state.log.inform("CYCLE", SKIPPED_TEXT.format(number, "it ends above its hole"), block)
         return
     unknown = {third} if number in _DRILLING_CYCLES and not pattern else {0, 1, 2}
     state.known -= unknown
     names = " and ".join("XYZ"[axis] for axis in sorted(unknown))
     text = template.format(number, f"cutcomp takes {names} from the next absolute words")
-    state.report(severity, "CYCLE", text, block)
+    state.log.report(severity, "CYCLE", text, block)

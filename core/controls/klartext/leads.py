@@ -14,7 +14,6 @@ from core.controls.klartext.path_functions import POLAR_WORDS, check_pole_plane,
 from core.controls.klartext.reader import Block
 from core.controls.klartext.state import AXIS_WORDS, COMMON_WORDS, State, Words
 from core.controls.moves import solid
-from core.finding import Severity
 
 _FORM: Final = re.compile(r"[ \t]*(P?)(LT|LN|CT|LCT)(?![A-Z])", re.ASCII)
 _NEEDED_WORDS: Final = {
@@ -49,7 +48,7 @@ def depart(state: State, block: Block) -> None:
     _check_side(state, block, shape)
     last = state.last
     if last is None:
-        state.stop("HE7", "DEP needs a contour element directly before it. Write an L or C block first.", block)
+        state.log.stop("HE7", "DEP needs a contour element directly before it. Write an L or C block first.", block)
     lead = _lead(state, block, shape, words)
     goal = _goal(state, block, words, shape, last, lead, polar=polar)
     rapid, feed = state.chosen_feed(block, words)
@@ -67,7 +66,7 @@ def _read(state: State, block: Block, name: str) -> tuple[LeadShape, bool, Words
     lead = _FORM.match(block.body)
     if lead is None or (name == "DEP" and lead[1] and lead[2] != "LCT"):
         text = f"{name} needs its shape: LT, LN, CT or LCT{', or with polar coordinates PLT ...' * (name == 'APPR')}."
-        state.stop("WORD", text, block)
+        state.log.stop("WORD", text, block)
     shape, polar = LeadShape(lead[2]), bool(lead[1])
     if polar:
         check_pole_plane(state, block)
@@ -78,26 +77,26 @@ def _read(state: State, block: Block, name: str) -> tuple[LeadShape, bool, Words
 def _check_side(state: State, block: Block, shape: LeadShape) -> None:
     if shape in (LeadShape.LN, LeadShape.CT) and not (state.side or state.applied):
         text = f"{block.head} {shape} has no side without compensation. Write RL or RR with it."
-        state.stop("HE4", text, block, "R0")
+        state.log.stop("HE4", text, block.at("R0"))
     if shape is LeadShape.LCT and not (state.side or state.applied):
         text = "cutcomp assumes this uncompensated arc is on the same side of the contour as the free point."
-        state.report(Severity.INFO, "INTERPRETED", text, block)
+        state.log.inform("INTERPRETED", text, block)
 
 
 def _lead(state: State, block: Block, shape: LeadShape, words: Words) -> Lead:
     for name in _NEEDED_WORDS[shape]:
         if name not in words:
-            state.stop("LEAD", f"{block.head} {shape} needs {name}. Write it with a number.", block)
+            state.log.stop("LEAD", f"{block.head} {shape} needs {name}. Write it with a number.", block)
     length = state.length(block, words, "LEN") if "LEN" in words else 0.0
     radius = state.length(block, words, "R") if "R" in words else 0.0
     angle = state.number(block, words, "CCA") if "CCA" in words else 0.0
     if length < 0.0 or ("LEN" in words and not length):
-        state.stop("LEAD", "LEN must be above 0.", block, "LEN")
+        state.log.stop("LEAD", "LEN must be above 0.", block.at("LEN"))
     if "R" in words and (not radius or (radius < 0.0 and shape is LeadShape.LCT)):
         least = "must be above 0" if shape is LeadShape.LCT else "cannot be 0"
-        state.stop("LEAD", f"The radius of {block.head} {shape} {least}.", block, "R")
+        state.log.stop("LEAD", f"The radius of {block.head} {shape} {least}.", block.at("R"))
     if "CCA" in words and not 0.0 < angle <= 360.0:
-        state.stop("LEAD", "CCA must be above 0, up to 360 degrees. The sign of R flips the arc.", block, "CCA")
+        state.log.stop("LEAD", "CCA must be above 0, up to 360 degrees. The sign of R flips the arc.", block.at("CCA"))
     return Lead(shape, length, radius, radians(angle))
 
 
@@ -111,8 +110,7 @@ def _goal(
         return end
     here = state.flat(state.position)[0]
     if point != here:
-        text = f"DEP {shape} ends where its lead ends. Only DEP LCT takes an end point."
-        state.stop("WORD", text, block)
+        state.log.stop("WORD", f"DEP {shape} ends where its lead ends. Only DEP LCT takes an end point.", block)
     start = offset_point(here, last.end_direction, state.offset)
     curve = departure(lead, start, here, last.end_direction, _hand(state.offset, state.applied))
     return list(solid(*(curve.point if curve else here), height, state.plane))

@@ -10,7 +10,6 @@ from core.controls.klartext.center_path import KLARTEXT_CORNERS, M97, M98, FeedA
 from core.controls.klartext.reader import Block
 from core.controls.klartext.state import AXIS_WORDS, State, Words
 from core.controls.program_text import quoted
-from core.finding import Severity
 
 MAX_LOOK_AHEAD: Final = 99
 """Most blocks that M120 can look ahead."""
@@ -43,13 +42,14 @@ def functions(state: State, block: Block, words: Words) -> CornerRules:
             corner = _function(state, block, name, corner)
     for name, owner in _FUNCTION_OF_WORD.items():
         if name in words and owner not in words:
-            state.stop("WORD", f"{name} belongs to {owner}. Write it with {owner}, or leave it out.", block, name)
+            text = f"{name} belongs to {owner}. Write it with {owner}, or leave it out."
+            state.log.stop("WORD", text, block.at(name))
     return corner
 
 
 def _function(state: State, block: Block, name: str, corner: CornerRules) -> CornerRules:
     if not name[1:].isdecimal():
-        state.stop("NUMBER", "M needs a whole number after it.", block, name)
+        state.log.stop("NUMBER", "M needs a whole number after it.", block.at(name))
     code = int(name[1:])
     if code in (2, 30):
         state.ended = True
@@ -60,12 +60,11 @@ def _function(state: State, block: Block, name: str, corner: CornerRules) -> Cor
     elif code in _CORNER_FUNCTIONS:
         return _CORNER_FUNCTIONS[code]
     elif code in _MOVING_FUNCTIONS:
-        text = f"{quoted(name)} moves the axes, which is not supported."
-        state.stop("BEYOND", text, block, name)
+        state.log.stop("BEYOND", f"{quoted(name)} moves the axes, which is not supported.", block.at(name))
     elif code in _DIFFERENT_ON_CONTROL:
-        state.report(Severity.WARNING, "M", f"{name} is not supported: {_DIFFERENT_ON_CONTROL[code]}.", block, name)
+        state.log.warn("M", f"{name} is not supported: {_DIFFERENT_ON_CONTROL[code]}.", block.at(name))
     elif code not in _IGNORED_FUNCTIONS:
-        state.report(Severity.INFO, "M", f"cutcomp assumes {quoted(name)} moves nothing.", block, name)
+        state.log.inform("M", f"cutcomp assumes {quoted(name)} moves nothing.", block.at(name))
     return corner
 
 
@@ -73,12 +72,11 @@ def _look_ahead(state: State, block: Block, words: Words) -> None:
     """M120 LA n looks ahead from this block on until R0; without LA, or with LA0, it is off."""
     depth = state.number(block, words, "LA") if "LA" in words else 0.0
     if not 0.0 <= depth <= MAX_LOOK_AHEAD or depth != int(depth):
-        state.stop("NUMBER", f"LA is a whole number of blocks up to {MAX_LOOK_AHEAD}.", block, "LA")
+        state.log.stop("NUMBER", f"LA is a whole number of blocks up to {MAX_LOOK_AHEAD}.", block.at("LA"))
     if depth and not state.side:
-        text = "M120 has no effect in this block. Write it in a block with RL or RR."
-        state.report(Severity.WARNING, "M", text, block, "M120")
+        state.log.warn("M", "M120 has no effect in this block. Write it in a block with RL or RR.", block.at("M120"))
     elif depth:
-        state.report(Severity.INFO, "INTERPRETED", M120_SKIPS, block, "M120")
+        state.log.inform("INTERPRETED", M120_SKIPS, block.at("M120"))
     state.ahead = int(depth) if state.side else 0
 
 
@@ -86,7 +84,7 @@ def only_functions(state: State, block: Block) -> None:
     """Run STOP, or a block of M words alone."""
     whole = block
     if block.head != "STOP":
-        whole = block._replace(body=block.head + block.body, column=block.column - len(block.head))
+        whole = block._replace(body=block.head + block.body, begin=block.begin - len(block.head))
     words = state.words(whole, frozenset(("M", "LA", "MB", "MAX")))
     if not leaves_workpiece(state, whole, words):
         functions(state, whole, words)
@@ -102,5 +100,5 @@ def leaves_workpiece(state: State, block: Block, words: Words) -> bool:
     state.waiting.flush()
     state.last = None
     text = "This move ends where only the machine knows, and is skipped. The next absolute words set the position."
-    state.report(Severity.WARNING, "MACHINE", text, block)
+    state.log.warn("MACHINE", text, block)
     return True

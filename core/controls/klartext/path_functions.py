@@ -15,7 +15,6 @@ from core.controls.klartext.reader import Block
 from core.controls.klartext.state import AXIS_WORDS, COMMON_WORDS, SIDE_WORDS, State, Words
 from core.controls.klartext.transform import rotated
 from core.controls.moves import Plane, solid, without_rounding
-from core.finding import Severity
 from core.geometry.piece import Point
 from core.tolerance import JOINED
 
@@ -66,7 +65,7 @@ def _line_to(state: State, block: Block, words: Words, end: list[float]) -> None
         state.last = None
         state.push(ProgrammedStep(Role.DEPTH, element, 0.0, state.plane))
         if state.side != state.applied and SIDE_WORDS.keys() & words.keys():
-            state.report(Severity.INFO, "INTERPRETED", NOT_YET, block)
+            state.log.inform("INTERPRETED", NOT_YET, block)
     elif state.side == state.applied:
         role = Role.CONTOUR if state.side else Role.FREE
         state.push(ProgrammedStep(role, element, state.offset, state.plane, corner_rules, state.feed_at))
@@ -78,7 +77,7 @@ def _line_to(state: State, block: Block, words: Words, end: list[float]) -> None
 def straight_element(state: State, block: Block, end: list[float], *, rapid: bool, feed: float) -> Element:
     """Return the line from the programmed position to another one."""
     (start, low), (goal, high) = state.flat(state.position), state.flat(end)
-    return line_element(start, goal, low, high, rapid, feed, block.line, block.start)
+    return line_element(start, goal, low, high, rapid, feed, block.line, block.column)
 
 
 def _change_side(state: State, block: Block, element: Element) -> None:
@@ -102,7 +101,7 @@ def pole(state: State, block: Block) -> None:
     state.known, state.at_machine_place = known, unknown
     plane = _plane_of(words) if words else state.plane
     if plane is None:
-        state.stop("ARC", "CC needs two axes, or none for where the tool stands.", block)
+        state.log.stop("ARC", "CC needs two axes, or none for where the tool stands.", block)
     state.pole, state.pole_plane = state.flat(target, plane)[0], plane
 
 
@@ -115,7 +114,7 @@ def _plane_of(words: Words) -> Plane | None:
 def pole_of(state: State, block: Block) -> Point:
     """Return the pole, which polar coordinates and C need; stop the run if there is none."""
     if state.pole is None:
-        state.stop("ARC", "No center is programmed. Write a CC block before this one.", block)
+        state.log.stop("ARC", "No center is programmed. Write a CC block before this one.", block)
     return state.pole
 
 
@@ -135,7 +134,7 @@ def polar_target(state: State, block: Block, words: Words) -> tuple[list[float],
     target = state.target(block, words)
     if state.flat(target, plane)[0] != (x, y):
         text = "A polar block takes only the axis across the plane of CC with PR and PA. Write an L or C block instead."
-        state.stop("WORD", text, block)
+        state.log.stop("WORD", text, block)
     point = polar_point(center, radius, angle)
     if "PR" in words and "PA" in words:
         state.now_known(plane.axes[:2])
@@ -148,14 +147,14 @@ def check_pole_plane(state: State, block: Block) -> None:
     """Stop the run unless the last CC lies in the working plane."""
     if state.pole_plane is not state.plane:
         text = f"{block.head} needs its CC in the working plane; the last CC names other axes. Write a new CC before."
-        state.stop("ARC", text, block)
+        state.log.stop("ARC", text, block)
 
 
 def _polar_value(state: State, block: Block, words: Words, name: str, now: float) -> float:
     """Return PR in millimeters or PA in degrees: absolute, incremental, or unchanged."""
     read = state.length if name == "PR" else state.number
     if name in words and f"I{name}" in words:
-        state.stop("TWICE", f"{name} and I{name} are in one block. Keep one.", block, f"I{name}")
+        state.log.stop("TWICE", f"{name} and I{name} are in one block. Keep one.", block.at(f"I{name}"))
     if name in words:
         return read(block, words, name)
     return now + read(block, words, f"I{name}") if f"I{name}" in words else now
@@ -178,7 +177,7 @@ def polar_circle(state: State, block: Block) -> None:
         return
     plane = state.pole_plane
     if state.flat(end, plane)[1] != state.flat(state.position, plane)[1]:
-        state.stop("ARC", "A helix needs its angle as IPA. Write IPA with the same sign as DR.", block)
+        state.log.stop("ARC", "A helix needs its angle as IPA. Write IPA with the same sign as DR.", block)
     _about_pole(state, block, words, end, turn)
 
 
@@ -187,14 +186,14 @@ def radius_arc(state: State, block: Block) -> None:
     words = state.words(block, _LINE_WORDS | {"DR", "R"})
     turn = _direction(state, block, words)
     if "R" not in words:
-        state.stop("ARC", "CR needs a radius. Write R+ or R- with a number.", block)
+        state.log.stop("ARC", "CR needs a radius. Write R+ or R- with a number.", block)
     plane = _radius_plane(state, block, words)
     end, radius = state.target(block, words), state.length(block, words, "R")
     if abs(radius) <= JOINED:
-        state.stop("ARC", "An arc cannot have the radius 0.", block, "R")
+        state.log.stop("ARC", "An arc cannot have the radius 0.", block.at("R"))
     center = center_by_radius(state.flat(state.position, plane)[0], state.flat(end, plane)[0], radius, turn)
     if isinstance(center, NoArc):
-        state.stop("ARC", center.text, block, "R", *center.lengths)
+        state.log.stop("ARC", center.text, block.at("R"), lengths=center.lengths)
     _arc_to(state, block, words, end, center, turn, plane)
 
 
@@ -204,7 +203,8 @@ def _radius_plane(state: State, block: Block, words: Words) -> Plane:
     plane = _plane_of(words)
     one_of_two = axes <= set(state.plane.axes[:2]) and (state.pole is None or state.pole_plane is state.plane)
     if plane is None and (len(axes) > 2 or not one_of_two):
-        state.stop("ARC", "The plane of this arc is not clear. Write both axes of its plane, and no third one.", block)
+        text = "The plane of this arc is not clear. Write both axes of its plane, and no third one."
+        state.log.stop("ARC", text, block)
     return plane or state.plane
 
 
@@ -225,14 +225,14 @@ def _tangent_to(state: State, block: Block, words: Words, end: list[float]) -> N
     """Run an arc to a position, tangent to the element before it."""
     if state.last is None or state.waiting.pending:
         text = "A tangent arc needs a contour element directly before it. Write an L or C block first, or use CR."
-        state.stop("HE6", text, block)
+        state.log.stop("HE6", text, block)
     start, goal, direction = state.flat(state.position)[0], state.flat(end)[0], state.last.end_direction
     dx, dy = goal[0] - start[0], goal[1] - start[1]
     cross, chord = direction[0] * dy - direction[1] * dx, hypot(dx, dy)
     if chord <= JOINED:
-        state.stop("ARC", "The end point must differ from the start point.", block)
+        state.log.stop("ARC", "The end point must differ from the start point.", block)
     if abs(cross) <= chord * elements.SAME_DIRECTION:
-        state.stop("ARC", ONE_STRAIGHT, block)
+        state.log.stop("ARC", ONE_STRAIGHT, block)
     center = elements.offset_point(start, direction, chord * chord / (2.0 * cross))
     _arc_to(state, block, words, end, center, 1 if cross > 0.0 else -1, state.plane)
 
@@ -248,15 +248,14 @@ def _check_radii(state: State, block: Block, center: Point, goal: Point) -> None
     first, last = hypot(start[0] - center[0], start[1] - center[1]), hypot(goal[0] - center[0], goal[1] - center[1])
     if abs(first - last) > KLARTEXT_ARC_TOLERANCE.mm or min(first, last) <= JOINED:
         text = "The arc's radius is {0} at its start and {1} at its end. Correct CC or the end point."
-        state.stop("ARC", text, block, "", first, last)
+        state.log.stop("ARC", text, block, lengths=(first, last))
 
 
 def _helix(state: State, block: Block, words: Words, end: list[float], angle: float, turn: int) -> None:
     """Run the full turns of a CP block with IPA, and the rest."""
     swept = state.number(block, words, "IPA")
     if swept * turn <= 0.0 or abs(swept) > MAX_HELIX:
-        text = f"IPA needs the same sign as DR and at most {MAX_HELIX:.0f} degrees."
-        state.stop("ARC", text, block, "IPA")
+        state.log.stop("ARC", f"IPA needs the same sign as DR and at most {MAX_HELIX:.0f} degrees.", block.at("IPA"))
     plane = state.pole_plane
     center, (goal, high) = pole_of(state, block), state.flat(end, plane)
     _check_radii(state, block, center, goal)
@@ -276,7 +275,7 @@ def _direction(state: State, block: Block, words: Words) -> int:
     sign = words.pop("DR", None)
     if sign not in ("+", "-"):
         text = "The direction is missing. Write DR+ (counterclockwise) or DR- (clockwise)."
-        state.stop("ARC", text, block, "" if sign is None else "DR")
+        state.log.stop("ARC", text, block.at("" if sign is None else "DR"))
     return 1 if sign == "+" else -1
 
 
@@ -299,20 +298,21 @@ def _arc_to(
     goal, high = state.flat(end, plane)
     if high != low and not helix:
         what = "The tool axis" if plane is state.plane else "The axis across its plane"
-        state.stop("ARC", f"{what} cannot move in this arc. Write a helix as CP with IPA.", block)
+        state.log.stop("ARC", f"{what} cannot move in this arc. Write a helix as CP with IPA.", block)
     if state.side != state.applied:
         verb = "applied" if state.side else "canceled"
         text = f"Compensation cannot be {verb} in an arc. Do it in an L block before or after it, or with APPR and DEP."
-        state.stop("HE2", text, block, ("R0", "RL", "RR")[state.side])
+        state.log.stop("HE2", text, block.at(("R0", "RL", "RR")[state.side]))
     if plane is not state.plane and state.applied:
         text = "An arc outside the working plane is not compensated. Cancel compensation in an L block with R0 before."
-        state.stop("HE2", text, block)
+        state.log.stop("HE2", text, block)
     if plane is not state.plane and not state.transform.neutral:
-        state.stop("BEYOND", "cutcomp mirrors and turns only arcs in the working plane. Write out the moves.", block)
+        text = "cutcomp mirrors and turns only arcs in the working plane. Write out the moves."
+        state.log.stop("BEYOND", text, block)
     state.moving(block, rapid=rapid, feed=feed)
     if hypot(goal[0] - start[0], goal[1] - start[1]) <= JOINED:
         goal = start
-    element = arc_element(start, goal, center, turn, low, high, feed, block.line, block.start)
+    element = arc_element(start, goal, center, turn, low, high, feed, block.line, block.column)
     element = element._replace(rapid=rapid)
     state.position = end
     role = Role.CONTOUR if state.applied else Role.FREE
@@ -322,19 +322,19 @@ def _arc_to(
 
 def corner(state: State, block: Block) -> None:
     """RND R and CHF: a rounding or chamfer between the element before and the one after."""
-    start, body = block.start, block.body.lstrip()
+    start, body = block.column, block.body.lstrip()
     if body and body[0] in "+-.0123456789Q":  # the size has no name, as in CHF 5
-        block = block._replace(body=f"LEN{body}", column=block.column + len(block.body) - len(body) - 3)
+        block = block._replace(body=f"LEN{body}", begin=block.begin + len(block.body) - len(body) - 3)
     words = state.words(block, _CORNER_WORDS)
     name = next((word for word in ("R", "LEN") if word in words), "")
     if not name:
-        state.stop("CORNER", f"{block.head} needs its size. Write RND R5 or CHF 5.", block)
+        state.log.stop("CORNER", f"{block.head} needs its size. Write RND R5 or CHF 5.", block)
     size = state.length(block, words, name)
     if size <= JOINED:
-        state.stop("CORNER", f"The size of {block.head} must be above 0.", block)
+        state.log.stop("CORNER", f"The size of {block.head} must be above 0.", block)
     if block.head == "RND" and state.waiting.step is None and state.side:
-        state.stop("BEYOND", NO_LEAD, block)
+        state.log.stop("BEYOND", NO_LEAD, block)
     if state.waiting.step is None or state.last is None or state.waiting.pending:
-        state.stop("CORNER", "RND and CHF need a contour element directly before them. Move the block.", block)
+        state.log.stop("CORNER", "RND and CHF need a contour element directly before them. Move the block.", block)
     feed = state.length(block, words, "F") if "F" in words else state.feed
     state.waiting.pending = PendingCorner(block.line, start, size, block.head == "RND", feed)

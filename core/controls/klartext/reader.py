@@ -11,6 +11,7 @@ import re
 from collections.abc import Iterable, Iterator
 from typing import Final, NamedTuple
 
+from core.controls.control_run import Spot
 from core.controls.program_text import capitals
 
 NUMBER: Final = r"(?:[+-][ \t]*)?(?:Q[LR]?\d+|\d+[.,]?\d*|[.,]\d+)"
@@ -54,7 +55,7 @@ def is_klartext_text(lines: Iterable[str]) -> bool:
 
 
 class Block(NamedTuple):
-    """One block: `line` from 1; `head` is "" for an empty block; the body's first character is at `column` (from 1).
+    """One block: `line` from 1; `head` is "" for an empty block; the body begins at column `begin`, from 1.
 
     `more` holds the lines that continue it, in capitals and without comments.
     """
@@ -62,25 +63,25 @@ class Block(NamedTuple):
     line: int
     head: str
     body: str
-    column: int
+    begin: int
     skip: bool
     more: tuple[str, ...] = ()
 
     @property
-    def start(self) -> int:
+    def column(self) -> int:
         """The column of its head word."""
-        return max(1, self.column - len(self.head))
+        return max(1, self.begin - len(self.head))
 
     def after(self, end: int) -> Block:
         """Return the block with the first `end` characters of its body blanked; the others keep their columns."""
         return self._replace(body=" " * end + self.body[end:])
 
-    def column_of(self, name: str) -> int:
-        """Return the column of the word `name`, or the block's start if there is no such word."""
+    def at(self, name: str) -> Spot:
+        """Return the place of the word `name`, or of the block's head if there is no such word."""
         for word in WORD.finditer(self.body) if name else ():
             if name in (joined_name(word[1] or ""), word[3], (word[1] or "") + (word[2] or "")):
-                return self.column + word.start()
-        return self.start
+                return Spot(self.line, self.begin + word.start())
+        return Spot(self.line, self.column)
 
 
 def read_blocks(lines: Iterable[str]) -> Iterator[Block]:

@@ -11,7 +11,6 @@ from core.controls.klartext.reader import MAX_LINE_LENGTH, TOO_LONG, TOOL_WORD, 
 from core.controls.klartext.state import State, Words
 from core.controls.moves import Plane
 from core.controls.program_text import quoted
-from core.finding import Severity
 from core.units import Unit, to_mm
 
 _BEGIN: Final = re.compile(r"\s*PGM(?:\s+(\S.*?))?\s+(MM|INCH)\s*$", re.ASCII)
@@ -46,20 +45,20 @@ def begin(state: State, block: Block) -> None:
     """BEGIN PGM name MM or INCH."""
     name_and_unit = _BEGIN.match(block.body)
     if name_and_unit is None:
-        state.stop("UNIT", "BEGIN PGM needs a name and MM or INCH. Write BEGIN PGM PART MM.", block)
+        state.log.stop("UNIT", "BEGIN PGM needs a name and MM or INCH. Write BEGIN PGM PART MM.", block)
     if state.begun:
-        state.stop("PROGRAM", "A second program begins here. Keep one program in a file.", block)
+        state.log.stop("PROGRAM", "A second program begins here. Keep one program in a file.", block)
     state.begun = True
     state.unit = Unit.IN if name_and_unit[2] == "INCH" else Unit.MM
     if state.unit is Unit.IN:
         text = "cutcomp takes F as inches per minute. Some of these controls take tenths of an inch per minute."
-        state.report(Severity.INFO, "UNIT", text, block)
+        state.log.inform("UNIT", text, block)
 
 
 def end(state: State, block: Block) -> None:
     """END PGM."""
     if not block.body.strip().startswith("PGM"):
-        state.stop("WORD", "END needs PGM, the program's name and unit.", block)
+        state.log.stop("WORD", "END needs PGM, the program's name and unit.", block)
     state.ended = True
 
 
@@ -69,14 +68,14 @@ def ignored(state: State, block: Block) -> None:
 
 
 def _skip(state: State, block: Block, name: str) -> None:
-    state.report(Severity.INFO, "IGNORED", f"{name} moves nothing and is skipped.", block)
+    state.log.inform("IGNORED", f"{name} moves nothing and is skipped.", block)
 
 
 def bracketed(state: State, block: Block) -> None:
     """Skip a line in brackets, a comment in other languages; before BEGIN PGM the bracket may be left open."""
     if state.begun and not block.body.rstrip().endswith(")"):
         unknown(state, block)
-    state.report(Severity.INFO, "IGNORED", "A line in brackets is skipped as a comment.", block)
+    state.log.inform("IGNORED", "A line in brackets is skipped as a comment.", block)
 
 
 def structure(state: State, block: Block) -> None:
@@ -85,7 +84,7 @@ def structure(state: State, block: Block) -> None:
 
 def text_parameter(state: State, block: Block) -> None:
     """DECLARE STRING and QS: skip texts, as they move nothing."""
-    state.report(Severity.INFO, "IGNORED", "Text parameters move nothing and are skipped.", block)
+    state.log.inform("IGNORED", "Text parameters move nothing and are skipped.", block)
 
 
 def plane(state: State, block: Block) -> None:
@@ -108,12 +107,12 @@ def function(state: State, block: Block) -> None:
 def unknown(state: State, block: Block) -> NoReturn:
     """Stop the program at a block that is unknown or not supported."""
     if block.head == TOO_LONG:
-        state.stop("WORD", f"This line has more than {MAX_LINE_LENGTH} characters. No control takes it.", block)
+        state.log.stop("WORD", f"This line has more than {MAX_LINE_LENGTH} characters. No control takes it.", block)
     whole = block.head + block.body
     why = next((why for pattern, why in _UNSUPPORTED if pattern.match(whole)), "")
     if why:
-        state.stop("BEYOND", f"{quoted(whole)} {why}", block)
-    state.stop("WORD", f"{quoted(whole)} is not a Klartext block. Write L, C, CR, CT, APPR or DEP.", block)
+        state.log.stop("BEYOND", f"{quoted(whole)} {why}", block)
+    state.log.stop("WORD", f"{quoted(whole)} is not a Klartext block. Write L, C, CR, CT, APPR or DEP.", block)
 
 
 def tool(state: State, block: Block) -> None:
@@ -126,7 +125,7 @@ def tool(state: State, block: Block) -> None:
     if number[4]:
         value = state.value(number[4], block)
         if not (0.0 <= value < 10.0**MAX_DIGITS and value.is_integer()):
-            state.stop("TOOL", f"{number[4]} is no tool number. Give it a whole number.", block, number[4])
+            state.log.stop("TOOL", f"{number[4]} is no tool number. Give it a whole number.", block.at(number[4]))
         name = str(int(value))
     if number[1] == "DEF":
         _define(state, rest, name, state.words(rest, _TOOL_DEF_WORDS, TOOL_WORD))
@@ -137,7 +136,7 @@ def tool(state: State, block: Block) -> None:
 def _define(state: State, block: Block, name: str, words: Words) -> None:
     """TOOL DEF n L R: set a tool's radius; without R the block only names the next tool."""
     if not name:
-        state.stop("TOOL", "TOOL DEF needs the tool's number. Write TOOL DEF 1 L+0 R+5.", block)
+        state.log.stop("TOOL", "TOOL DEF needs the tool's number. Write TOOL DEF 1 L+0 R+5.", block)
     if "R" in words:
         delta = state.length(block, words, "DR") if "DR" in words else 0.0
         state.defined[name] = state.length(block, words, "R") + delta
@@ -153,17 +152,16 @@ def _call(state: State, block: Block, name: str, words: Words) -> None:
         return
     if state.applied and not state.side:
         text = "cutcomp assumes that R0 with the tool axis alone cancels compensation where the tool is changed."
-        state.report(Severity.INFO, "INTERPRETED", text, block)
+        state.log.inform("INTERPRETED", text, block)
         state.waiting.flush()
         state.waiting.center.finish()
         state.release()
     if state.applied:
-        text = "The tool cannot be changed under compensation. Cancel it with R0 or DEP first."
-        state.stop("TOOL", text, block)
+        state.log.stop("TOOL", "The tool cannot be changed under compensation. Cancel it with R0 or DEP first.", block)
     state.waiting.flush()
     axes = sorted(words.keys() & _PLANE_OF_TOOL_AXIS.keys())
     if len(axes) > 1:
-        state.stop("TWICE", f"{axes[0]} and {axes[1]} are both tool axes. Keep one.", block, axes[1])
+        state.log.stop("TWICE", f"{axes[0]} and {axes[1]} are both tool axes. Keep one.", block.at(axes[1]))
     if axes and _PLANE_OF_TOOL_AXIS[axes[0]] is not state.plane:
         state.plane, state.pole = _PLANE_OF_TOOL_AXIS[axes[0]], None
     state.tool = name or state.tool
@@ -181,7 +179,7 @@ def _take_radius(state: State, block: Block, delta: float) -> None:
         radius = listed.diameter_mm(state.unit) / 2.0
         if defined is not None and abs(radius - defined) > 0.0:
             text = "cutcomp takes radius {0} from the tool table, not radius {1} from TOOL DEF."
-            state.report(Severity.INFO, "TOOL", text, block, "", radius, defined)
+            state.log.inform("TOOL", text, block, lengths=(radius, defined))
     elif state.tool == "0":
         radius = 0.0
     else:
@@ -192,9 +190,9 @@ def _take_radius(state: State, block: Block, delta: float) -> None:
             text = "The tool radius is {0} with DR. It is judged as this wide."
             if delta < -MAX_WORN_SHARE * radius:
                 text = "DR makes the tool radius {0} instead of {1}. Unless it is that worn, it cuts {2} too deep."
-                state.report(Severity.WARNING, "TOOL", text, block, "DR", state.radius, radius, -delta)
+                state.log.warn("TOOL", text, block.at("DR"), lengths=(state.radius, radius, -delta))
             else:
-                state.report(Severity.INFO, "TOOL", text, block, "DR", state.radius)
+                state.log.inform("TOOL", text, block.at("DR"), lengths=(state.radius,))
         state.parameters["Q108"] = state.radius / to_mm(1.0, state.unit)
 
 
@@ -202,7 +200,7 @@ def shift(state: State, block: Block) -> None:
     """Shift the datum: absolute words count from the unshifted datum, incremental ones from the last shift."""
     words = state.words(block, frozenset(_SHIFT_WORDS))
     if not words:
-        state.stop("WORD", "A datum shift needs an axis and a value. Write X+10.", block)
+        state.log.stop("WORD", "A datum shift needs an axis and a value. Write X+10.", block)
     for name, axis in _SHIFT_WORDS.items():
         if name in words:
             value = state.length(block, words, name)

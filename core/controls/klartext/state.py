@@ -20,7 +20,6 @@ from core.controls.klartext.reader import WORD, Block, joined_name
 from core.controls.klartext.transform import Transform
 from core.controls.moves import Plane
 from core.controls.program_text import quoted
-from core.finding import Severity
 from core.geometry.piece import Point
 from core.tolerance import LARGEST_COORDINATE
 from core.units import Unit, to_mm
@@ -109,14 +108,6 @@ class State:
         tool = int(self.tool) if self.tool.isdecimal() else None
         self.spindle.append(SpindleChange(len(self.waiting.center.record.tape), tool, self.speed))
 
-    def stop(self, code: str, text: str, block: Block, name: str = "", *lengths: float) -> NoReturn:
-        """Stop the control at a word of the block, or at its head."""
-        self.log.stop(code, text, block.line, block.column_of(name), lengths=lengths)
-
-    def report(self, severity: Severity, code: str, text: str, block: Block, name: str = "", *lengths: float) -> None:
-        """Report a finding at a word of the block, or at its head."""
-        self.log.report(severity, code, text, block.line, block.column_of(name), lengths=lengths)
-
     def words(self, block: Block, allowed: frozenset[str], pattern: Pattern[str] = WORD) -> Words:
         """Return the block's words, all of them allowed and none twice; M words have their numbers in their names."""
         words: Words = {}
@@ -126,18 +117,18 @@ class State:
                 name, number = "R0", ""
             if name in EMPTY_WORDS and not number and not junk and self._is_empty(name, allowed):
                 if not self.reported_empty:
-                    self.report(Severity.INFO, "INTERPRETED", EMPTY_WORD_TEXT.format(name=name), block, name)
+                    self.log.inform("INTERPRETED", EMPTY_WORD_TEXT.format(name=name), block.at(name))
                 self.reported_empty = True
                 continue
             if name not in allowed and name in ROTARY_AXES and number and self.value(number, block, name) == 0.0:
-                self.report(Severity.INFO, "AXIS", "Rotary axes at 0 tilt nothing and are skipped.", block, name)
+                self.log.inform("AXIS", "Rotary axes at 0 tilt nothing and are skipped.", block.at(name))
                 continue
             if name not in allowed:
                 self._unknown(block, name or junk, number)
             if name == "M":
                 name, number = f"M{number}", ""
             if name in words:
-                self.stop("TWICE", f"{name} is written twice in this block. Keep one.", block, name)
+                self.log.stop("TWICE", f"{name} is written twice in this block. Keep one.", block.at(name))
             words[name] = number
         return words
 
@@ -153,14 +144,14 @@ class State:
         elif name == "R" and number in ("+", "-"):
             text = "R+ and R- are for single-axis blocks, which are not supported. Write L with R0, RL or RR."
         else:
-            written = block.body[block.column_of(name) - block.column :].split(maxsplit=1)[0]
+            written = block.body[block.at(name).column - block.begin :].split(maxsplit=1)[0]
             if written.startswith("QS"):
                 text = f"cutcomp does not follow {quoted(written)}: a parameter that holds text. Write the text."
             elif written.startswith("#"):
                 text = f"cutcomp does not follow {quoted(written)}: a row of a table. Write its values."
             else:
                 code, text = "WORD", f"A {quoted(block.head)} block takes no word {quoted(written)}."
-        self.stop(code, text, block, name)
+        self.log.stop(code, text, block.at(name))
 
     def number(self, block: Block, words: Words, name: str) -> float:
         """Return the number of a word, or the value of its formula."""
@@ -169,20 +160,20 @@ class State:
             value = float(raw)
         except ValueError:
             if not raw or raw in "+-":
-                self.stop("NUMBER", f"{name} needs a number after it.", block, name)
+                self.log.stop("NUMBER", f"{name} needs a number after it.", block.at(name))
             value = self.value(raw, block, name)
         if not -LARGEST_COORDINATE < value < LARGEST_COORDINATE:
-            self.stop("NUMBER", f"The number of {name} is too large for any machine.", block, name)
+            self.log.stop("NUMBER", f"The number of {name} is too large for any machine.", block.at(name))
         return value
 
     def value(self, formula: str, block: Block, name: str = "") -> float:
         """Return the value of a formula; stop the run if it has none."""
         if "%" in formula:
             text = "cutcomp does not work out % in a formula: the sign of a remainder may differ. Write the result."
-            self.stop("BEYOND", text, block, name)
+            self.log.stop("BEYOND", text, block.at(name))
         value = evaluate(formula, self.parameters)
         if isinstance(value, str):
-            self.stop("Q", value, block, name)
+            self.log.stop("Q", value, block.at(name))
         return value
 
     def length(self, block: Block, words: Words, name: str) -> float:
@@ -203,7 +194,7 @@ class State:
                 if not relative:
                     self.now_known({axis})
                 elif AXIS_WORDS[name[1:]][0] == axis and name[1:] in words:
-                    self.stop("TWICE", f"{name} and {name[1:]} are in one block. Keep one.", block, name)
+                    self.log.stop("TWICE", f"{name} and {name[1:]} are in one block. Keep one.", block.at(name))
                 base = self.position[axis] if relative else self.shift[axis]
                 position[axis] = base + self.length(block, words, name)
         return position
@@ -224,11 +215,11 @@ class State:
             return
         names = [name for name in SIDE_WORDS if name in words]
         if len(names) > 1:
-            self.stop("TWICE", f"{names[0]} and {names[1]} are in one block. Keep one.", block, names[1])
+            self.log.stop("TWICE", f"{names[0]} and {names[1]} are in one block. Keep one.", block.at(names[1]))
         side = SIDE_WORDS[names[0]]
         if side and side == -(self.applied or self.side):
             text = "The side changes without R0 between. Cancel in an L block with R0 first."
-            self.stop("HE1", text, block, names[0])
+            self.log.stop("HE1", text, block.at(names[0]))
         self.side = side
 
     def chosen_feed(self, block: Block, words: Words) -> tuple[bool, float]:
@@ -237,13 +228,13 @@ class State:
             return False, self.feed
         names = [name for name in words if name in FEED_WORDS]
         if len(names) > 1:
-            self.stop("TWICE", f"{names[0]} and {names[1]} are in one block. Keep one.", block, names[1])
+            self.log.stop("TWICE", f"{names[0]} and {names[1]} are in one block. Keep one.", block.at(names[1]))
         if "F" in words:
             self.feed = self.length(block, words, "F")
         elif "FAUTO" in words:
             self.feed = self.tool_feed
         if self.feed < 0.0:
-            self.stop("NUMBER", "A feed cannot be negative.", block, "F")
+            self.log.stop("NUMBER", "A feed cannot be negative.", block.at("F"))
         return "FMAX" in words, self.feed
 
     def push(self, step: ProgrammedStep) -> None:
@@ -266,19 +257,18 @@ class State:
         self.before = (rapid, feed)
         if self.datum_moved or not (self.transform.neutral or self.transform.plane is self.plane):
             text = "cutcomp follows a mirror image or rotation only about a datum set before, in one working plane."
-            self.stop("BEYOND", text, block)
+            self.log.stop("BEYOND", text, block)
         if rapid:
             return
         if not feed:
-            text = "This move has no feed: the control stops here. Write F or FMAX."
-            self.report(Severity.WARNING, "FEED", text, block)
+            self.log.warn("FEED", "This move has no feed: the control stops here. Write F or FMAX.", block)
         if len(self.known) < 3 and not self.known.issuperset(self.plane.axes[:2]):
             self.known.update(self.plane.axes[:2])
             text = (
                 "Where the tool stands is not known here; cutcomp takes its last known place, or 0 at the beginning of "
                 "the program. Write an L block with both axes before."
             )
-            self.report(Severity.WARNING, "POSITION", text, block)
+            self.log.warn("POSITION", text, block)
 
     def apply(self, block: Block) -> None:
         """Apply RL or RR from here on, at the radius of the tool in the spindle."""
@@ -291,13 +281,13 @@ class State:
             text = "The tool's radius is unknown. Write TOOL DEF and TOOL CALL, or give the tool's diameter."
             if self.tool:
                 text = f"The diameter of tool {self.tool} is unknown. Write TOOL DEF with its radius, or enter it."
-            column = block.column_of("RL" if self.side > 0 else "RR")
-            self.log.stop("TOOL", text, block.line, column, tool=tool_id(self.tool or "1"))
+            place = block.at("RL" if self.side > 0 else "RR")
+            self.log.stop("TOOL", text, place, tool=tool_id(self.tool or "1"))
         if self.radius < 0.0:
             text = "Tool radius {0} with its deltas is negative: the tool runs on the other side of the contour."
-            self.report(Severity.WARNING, "TOOL", text, block, "", self.radius)
+            self.log.warn("TOOL", text, block, lengths=(self.radius,))
         elif not self.radius:
-            self.report(Severity.WARNING, "TOOL", "Tool radius 0: the center runs on the contour.", block)
+            self.log.warn("TOOL", "Tool radius 0: the center runs on the contour.", block)
         self.applied, self.offset = self.side, self.side * self.radius * self.share
 
     def _take_only_tool(self, block: Block) -> None:
@@ -306,7 +296,7 @@ class State:
             (tool,) = self.tools.tools.values()
             self.tool, self.radius = str(tool.number), tool.diameter_mm(self.unit) / 2.0
             text = f"No TOOL CALL before this block: cutcomp takes tool {tool.number}, the only one given."
-            self.report(Severity.INFO, "TOOL", text, block)
+            self.log.inform("TOOL", text, block)
 
     def release(self) -> None:
         """Turn compensation off."""

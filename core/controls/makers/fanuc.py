@@ -12,7 +12,7 @@ from typing import Final
 
 from core.controls.compensation.corner_rules import Outside
 from core.controls.compensation.elements import Element, line_element
-from core.controls.control_run import Log
+from core.controls.control_run import Log, Place, Spot
 from core.controls.iso.arcs import IN_PLANE
 from core.controls.iso.dialect import CYCLES_APART, PLANE_OF_CODE, USUAL_CODES, CodeAction, Dialect, codes
 from core.controls.iso.expressions import ParameterStore
@@ -22,7 +22,6 @@ from core.controls.iso.macro_b_machine import HAAS_SYSTEMS, MacroMachine
 from core.controls.iso.reader import COMPENSATION_CODES, Block, Syntax, whole_word
 from core.controls.makers.fanuc_vectors import Alarms, VectorQueue, VectorRules, vector_meeting
 from core.controls.moves import flat
-from core.finding import Severity
 from core.geometry.piece import Point, Side
 from core.units import Unit
 
@@ -154,29 +153,27 @@ class Fanuc(VectorQueue, Control):
     def _refuse(self, block: Block) -> None:
         """Stop the run at codes that compensation does not allow."""
         for code in block.g:
-            column = block.column("G", code)
+            place = block.at("G", code)
             if code in PLANE_OF_CODE and PLANE_OF_CODE[code] is not self.plane:
-                text = "The plane cannot change under compensation. Write G40 before it."
-                self.log.stop("PS0037", text, block.line, column)
+                self.log.stop("PS0037", "The plane cannot change under compensation. Write G40 before it.", place)
             if code == 310:
-                self.log.stop("PS0036", "G31 does not go with compensation. Write G40 before it.", block.line, column)
+                self.log.stop("PS0036", "G31 does not go with compensation. Write G40 before it.", place)
             if code in (450, 460, 470, 480):
-                text = "G45 to G48 do not go with compensation. Write G40 before them."
-                self.log.stop("PS0042", text, block.line, column)
+                self.log.stop("PS0042", "G45 to G48 do not go with compensation. Write G40 before them.", place)
             if code in _TRANSFORM_CODES and code != 500 and not (code in (690, 501) and not self.machine.transform):
                 text = f"cutcomp does not follow G{code / 10:g} under compensation. Write G40 before it."
-                self.log.stop("FN-TRANSFORM", text, block.line, column)
+                self.log.stop("FN-TRANSFORM", text, place)
 
     def _take_number(self, block: Block) -> None:
         self.number = number = whole_word(block, "D", self.log, "NUMBER", "D is an offset number, a whole number.")
         if self.active and number == 0:
             self._cancel_in(block, None)
         elif self.side is not None or not COMPENSATION_CODES.isdisjoint(block.g):
-            self.radius = self._offset_value(block.line, block.column("D"))
+            self.radius = self._offset_value(block.at("D"))
             if self.active and self.side is not None:
                 self.coming = self.radius * self.side.sign
 
-    def _offset_value(self, line: int, column: int) -> float:
+    def _offset_value(self, place: Place) -> float:
         """Return the radius stored under the D in force, millimeters."""
         if self.number == 0:
             return 0.0
@@ -188,12 +185,12 @@ class Fanuc(VectorQueue, Control):
             text = (
                 f"D{number} is not in the tool table; cutcomp takes it for tool {tool}, as shared offset memories do."
             )
-            self.log.report(Severity.INFO, "D-AS-T", text, line, column)
+            self.log.inform("D-AS-T", text, place)
         if radius is None:
             text = f"Offset {number} is not in the tool table. Enter its tool or write another D."
-            self.log.stop("PS0030", text, line, column, tool=number)
-        self.note_radius(radius, "FN-D2", "The radius is negative, so G41 and G42 change places.", line, column)
-        machine.compare_offset(radius, f"D{number}", line, column)
+            self.log.stop("PS0030", text, place, tool=number)
+        self.note_radius(radius, "FN-D2", "The radius is negative, so G41 and G42 change places.", place)
+        machine.compare_offset(radius, f"D{number}", place)
         return radius
 
     def compensation_on(self, side: Side, block: Block) -> None:
@@ -208,19 +205,19 @@ class Fanuc(VectorQueue, Control):
         if side is not old:
             if self.held is not None and self.held.startup:
                 text = "The side cannot change right after the start-up. Write a move first."
-                self.log.stop(self.alarms.no_meeting, text, block.line, block.side_column())
+                self.log.stop(self.alarms.no_meeting, text, block.at_side())
         elif self._moves_in_plane(block):
             text = "G41 or G42 is in force already; cutcomp assumes that it has no effect in a block that moves."
-            self.log.report(Severity.INFO, "FN-G2", text, block.line, block.side_column())
+            self.log.inform("FN-G2", text, block.at_side())
         else:
             self.end_square()
 
     def _shift_on(self, block: Block) -> None:
         """Type C: let a block without movement move the tool square to the next element."""
-        self._read_radius(block.line, block.column("DG"))
+        self._read_radius(block.at("DG"))
         if self.coming:
             self.in_plane = True
-            self._report_parameters(block.line)
+            self._report_parameters(block)
             self.start_up(self._standing_element(block))
 
     def _standing_element(self, block: Block) -> Element:
@@ -229,9 +226,9 @@ class Fanuc(VectorQueue, Control):
         x, y, height = flat(machine.position, self.plane)
         return line_element((x, y), (x, y), height, height, machine.mode == 0, machine.feed, block.line)
 
-    def _read_radius(self, line: int, column: int) -> None:
+    def _read_radius(self, place: Place) -> None:
         """Read the offset under D, as it is when compensation starts."""
-        self.radius = self._offset_value(line, column)
+        self.radius = self._offset_value(place)
         self.coming = self.radius * (self.side.sign if self.side else 0)
 
     def compensation_off(self, block: Block) -> None:
@@ -270,8 +267,7 @@ class Fanuc(VectorQueue, Control):
     def maker_code(self, code: int, block: Block) -> None:
         """G39: request an arc around the corner, which ends square to the block's vector if it has one."""
         if not self.active:
-            text = "G39 goes with compensation only. Write G41 or G42 before it."
-            self.log.stop("PS0035", text, block.line, block.column("G", code))
+            self.log.stop("PS0035", "G39 goes with compensation only. Write G41 or G42 before it.", block.at("G", code))
         first, second, _ = IN_PLANE[self.plane]
         self.round_corner = (block.words.get(first, 0.0), block.words.get(second, 0.0))
         self.in_plane = True
@@ -298,26 +294,26 @@ class Fanuc(VectorQueue, Control):
         if self.side is None or not element.moves or homing:
             super().travel(element)
             return
-        self._read_radius(element.line, 1)
+        self._read_radius(element)
         if self.coming == 0.0:
             if not self.warned_of_zero:
                 text = "The offset is 0. Write D and the number of an offset."
-                self.machine.nothing_compensated(text, element.line, 1, code="FN-D0")
+                self.machine.nothing_compensated(text, element, code="FN-D0")
             self.warned_of_zero = True
             super().travel(element)
             return
-        self._report_parameters(element.line)
+        self._report_parameters(element)
         if self.machine.start_unknown:
-            self._start_from_the_machine(element.line)
+            self._start_from_the_machine(element)
         self.start_up(element)
 
-    def _start_from_the_machine(self, line: int) -> None:
+    def _start_from_the_machine(self, place: Place) -> None:
         """Report a start-up from an unknown machine point; type B needs the point and stops, the others do not."""
         text = "Where this move starts is not known after the move to the machine's point."
         if not self.vector_rules.type_a:
-            self.log.stop("FN-WHERE", f"{text} Write a rapid to a point before it.", line, 1)
+            self.log.stop("FN-WHERE", f"{text} Write a rapid to a point before it.", place)
         text = f"{text} What it cuts on its way is not judged. Write a rapid to a point before it."
-        self.log.report(Severity.WARNING, "FN-WHERE", text, line, 1)
+        self.log.warn("FN-WHERE", text, place)
 
     def _in_place(self, element: Element) -> None:
         """Run a move across the plane, or one of no length."""
@@ -329,9 +325,9 @@ class Fanuc(VectorQueue, Control):
         self.too_many = self.too_many or element.start_height == element.end_height
         self.across(element)
 
-    def _report_parameters(self, line: int) -> None:
+    def _report_parameters(self, place: Place) -> None:
         if not self.log.has("FN-PARAM"):
-            self.log.report(Severity.INFO, "FN-PARAM", self.assumed_parameters(), line, 1)
+            self.log.inform("FN-PARAM", self.assumed_parameters(), place)
 
     def assumed_parameters(self) -> str:
         """Return the sentence about what the machine builder or the shop sets, and what cutcomp assumes."""
@@ -365,7 +361,7 @@ class Fanuc(VectorQueue, Control):
         text += remedy
         if self.calls_counted:
             text += " Some controls count M98 and M99 as such blocks, as here."
-        self.log.report(Severity.WARNING, "FN-N2", text, block.line, 1)
+        self.log.warn("FN-N2", text, block)
         self.end_square()
 
     def _leave_for_a_while(self, block: Block) -> None:
@@ -377,7 +373,7 @@ class Fanuc(VectorQueue, Control):
             return
         what = "The move to the machine's point" if away else "The new origin"
         text = f"{what} turns compensation off for a while; the next move in the plane starts it again."
-        self.log.report(Severity.WARNING, "FN-G5", text, block.line, block.column("G"))
+        self.log.warn("FN-G5", text, block.at("G"))
         if away:
             self.end_square()
         else:
@@ -388,16 +384,14 @@ class Fanuc(VectorQueue, Control):
 
     def end(self, _: int) -> None:
         """End of the program: under compensation the last move ends square."""
-        line = self.block.line if self.block else 1
         if self.active:
             self.end_square()
         if self.active or (self.away and self.side is not None):
-            self.left_open(line)
+            self.left_open(self.block or Spot(1))
 
-    def left_open(self, line: int) -> None:
+    def left_open(self, place: Place) -> None:
         """Report a program that ends under compensation."""
-        text = "The program ends under compensation. Write G40 and a move away from the part."
-        self.log.report(Severity.WARNING, "FN-OPEN", text, line, 1)
+        self.log.warn("FN-OPEN", "The program ends under compensation. Write G40 and a move away from the part.", place)
 
 
 VECTOR_RULES: Final[Mapping[str, VectorRules]] = {

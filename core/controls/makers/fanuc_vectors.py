@@ -39,7 +39,6 @@ from core.controls.compensation.elements import (
 from core.controls.compensation.recorder import Recorder
 from core.controls.control_run import Log
 from core.controls.moves import solid
-from core.finding import Severity
 from core.geometry.piece import Point
 
 MAX_TANGENT_ANGLE: Final = radians(0.05)
@@ -129,8 +128,7 @@ class VectorQueue(Recorder):
         self.held = Held(element, [self.here], self.coming, startup=True)
 
     def _no_arc(self, element: Element, code: str) -> None:
-        text = "Compensation cannot start or end in G2 or G3. Write G1 and a straight move."
-        self.log.stop(code, text, element.line, 1)
+        self.log.stop(code, "Compensation cannot start or end in G2 or G3. Write G1 and a straight move.", element)
 
     def across(self, element: Element) -> None:
         """Take in a move across the plane, which runs at the end of the element before it."""
@@ -160,17 +158,17 @@ class VectorQueue(Recorder):
             what = "smaller" if self.vector_rules.point_arcs else "no larger"
             text = f"The arc radius {{0}} is {what} than the cutter radius {{1}}. Use a smaller cutter."
             lengths = (element.radius, abs(self.coming))
-            self.log.stop(self.alarms.crossing, text, element.line, 1, lengths=lengths)
+            self.log.stop(self.alarms.crossing, text, element, lengths=lengths)
 
     def _check_center(self, element: Element) -> None:
         ends = (element.start, element.end) if element.turn else ()
         if any(hypot(x - element.center[0], y - element.center[1]) < SAME_DIRECTION for x, y in ends):
-            self.log.stop(self.alarms.point, "The arc starts or ends at its center. Correct I and J.", element.line, 1)
+            self.log.stop(self.alarms.point, "The arc starts or ends at its center. Correct I and J.", element)
 
     def _check_new_offset(self, element: Element, start: float) -> None:
         if element.turn and abs(self.coming) != abs(start):
             text = "The offset changes in an arc, which cutcomp does not follow. Write the new D in a straight move."
-            self.log.stop("FN-DARC", text, element.line, 1)
+            self.log.stop("FN-DARC", text, element)
 
     def _go_on(self, element: Element) -> None:
         """Hold an element after a square end: it starts there and runs at a slant to its own end."""
@@ -178,7 +176,7 @@ class VectorQueue(Recorder):
         vectors = [self.here]
         if element.turn:
             text = "The arc after a square end begins with a straight move to its start. cutcomp assumes this move."
-            self.log.report(Severity.INFO, "FN-N2-ARC", text, element.line, 1)
+            self.log.inform("FN-N2-ARC", text, element)
             vectors.append(offset_start(element, self.coming))
         self.before = None
         self.held = Held(element, vectors, self.coming)
@@ -194,7 +192,7 @@ class VectorQueue(Recorder):
             return entry_joint(first, element, start, self.rules.outside, direct=self.vector_rules.type_a)
         if start != offset:
             text = "The side changes here. cutcomp takes the way across from other makers' manuals."
-            self.log.report(Severity.INFO, "FN-G1", text, element.line, 1)
+            self.log.inform("FN-G1", text, element)
             return offset_change_joint(first, element, offset, start)
         return self._joined(first, element, offset)
 
@@ -213,7 +211,7 @@ class VectorQueue(Recorder):
     def _without_meeting(self, first: Element, second: Element, offset: float) -> Joint:
         if inward_turn(first, second, offset) >= MAX_TANGENT_ANGLE:
             text = "The offsets of this inside corner do not meet. Use a smaller cutter or open the corner."
-            self.log.stop(self.alarms.no_meeting, text, second.line, 1, at=first.end)
+            self.log.stop(self.alarms.no_meeting, text, second, at=first.end)
         return Joint(offset_end(first, offset), offset_start(second, offset))
 
     def _rounded(self, first: Element, second: Element, offset: float, vector: Point) -> Joint:
@@ -292,7 +290,7 @@ class VectorQueue(Recorder):
             if not at_start and not at_end:
                 what = "inside this arc" if held.element.turn else "along this move"
                 text = f"The tool does not fit {what}: its path would run backwards. Use a smaller cutter."
-                self.log.stop(self.alarms.crossing, text, held.element.line, 1, at=held.element.end)
+                self.log.stop(self.alarms.crossing, text, held.element, at=held.element.end)
             if at_start:
                 held.vectors.pop()
                 held.center = None
@@ -302,7 +300,7 @@ class VectorQueue(Recorder):
             dropped = True
         if dropped:
             text = "Vectors cross here; the control drops some and shortens the way around the corner."
-            self.log.report(Severity.WARNING, "FN-VECTOR", text, held.element.line, 1)
+            self.log.warn("FN-VECTOR", text, held.element)
 
     # square ends and the cancel
 

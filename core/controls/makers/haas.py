@@ -12,6 +12,7 @@ from functools import partial
 from typing import Final
 
 from core.controls.compensation.corner_rules import Outside
+from core.controls.control_run import Place
 from core.controls.iso.dialect import CodeAction, Dialect, codes
 from core.controls.iso.flow import MakeControl
 from core.controls.iso.macro_b_machine import HAAS_SYSTEMS
@@ -19,7 +20,6 @@ from core.controls.iso.reader import Block
 from core.controls.makers import fanuc
 from core.controls.makers.fanuc_vectors import Alarms, VectorRules
 from core.controls.moves import Plane
-from core.finding import Severity
 from core.geometry.piece import Side
 
 DIALECT: Final[Dialect] = replace(
@@ -54,8 +54,7 @@ class Haas(fanuc.Fanuc):
     def compensation_on(self, side: Side, block: Block) -> None:
         """G41 and G42: start compensation; warn outside G17, where older controls have none."""
         if self.plane is not Plane.XY:
-            text = "Older Haas controls compensate in G17 only (alarm 344)."
-            self.log.report(Severity.WARNING, "H344", text, block.line, block.side_column())
+            self.log.warn("H344", "Older Haas controls compensate in G17 only (alarm 344).", block.at_side())
         super().compensation_on(side, block)
 
     def assumed_parameters(self) -> str:
@@ -73,17 +72,16 @@ class Haas(fanuc.Fanuc):
                 "machine's zero under compensation. cutcomp assumes that it does."
             )
             if not self.log.has("HAAS-STOP"):
-                self.log.report(Severity.WARNING, "HAAS-STOP", text, block.line, 1)
+                self.log.warn("HAAS-STOP", text, block)
             return
         text = (
             f"More than {BLOCKS_READ - 2} blocks without movement in the plane stand before the next move. Remove some."
         )
-        self.log.stop("H350", text, block.line, 1)
+        self.log.stop("H350", text, block)
 
-    def left_open(self, line: int) -> None:
+    def left_open(self, place: Place) -> None:
         """Stop the run: the program ends under compensation."""
-        text = "The program ends under compensation. Write G40 and a move away from the part."
-        self.log.stop("H349", text, line, 1)
+        self.log.stop("H349", "The program ends under compensation. Write G40 and a move away from the part.", place)
 
 
 VARIANTS: Final[Mapping[str, MakeControl]] = {

@@ -22,7 +22,6 @@ from core.controls.iso.machine import Control
 from core.controls.iso.modal_state import system_code
 from core.controls.iso.reader import COMPENSATION_CODES, Block, Syntax, whole, whole_word
 from core.controls.moves import Plane, flat, solid
-from core.finding import Severity
 from core.geometry.piece import Side
 from core.units import Unit
 
@@ -102,18 +101,17 @@ class LinuxCnc(OneMoveQueue, Control):
         words = block.words
         if "D" in words and COMPENSATION_CODES.isdisjoint(block.g) and 960 not in block.g:
             text = f"D needs G41, G42, G41.1 or G42.1 in its block. {D_AND_H_ANYWHERE}"
-            self.log.stop("N-DALONE", text, block.line, block.column("D"))
+            self.log.stop("N-DALONE", text, block.at("D"))
         if not _OTHERS.isdisjoint(words) or block.m or len(block.g) > 1 or 40 in block.g:
             self._other_words(block)
         if not _ARC_CENTER_LETTERS.isdisjoint(words):
             self._arc_words(block)
         for code in block.g:
             if code // 10 == 38 and code != 380:
-                text = "cutcomp cannot know where the probe stops."
-                self.log.stop("N-PROBE", text, block.line, block.column("G", code))
+                self.log.stop("N-PROBE", "cutcomp cannot know where the probe stops.", block.at("G", code))
         for letter in "FSN":
             if block.words.get(letter, 0.0) < 0.0:
-                self.log.stop("N-NEGATIVE", f"{letter} cannot be negative.", block.line, block.column(letter))
+                self.log.stop("N-NEGATIVE", f"{letter} cannot be negative.", block.at(letter))
         if block.m:
             self._check_m_groups(block)
             self._m_codes(block)
@@ -130,31 +128,31 @@ class LinuxCnc(OneMoveQueue, Control):
         """Stop the run if a block has more than four M codes, or two of one group."""
         if len(block.m) > MAX_M_CODES:
             text = f"A block can have {MAX_M_CODES} M codes. Write the others in another block."
-            self.log.stop("GROUP", text, block.line, block.column("M", block.m[MAX_M_CODES]))
+            self.log.stop("GROUP", text, block.at("M", block.m[MAX_M_CODES]))
         for group in _M_GROUPS:
             taken = [code for code in block.m if code in group]
             if len(taken) > 1:
                 text = f"M{taken[0] // 10} and M{taken[1] // 10} are of one group. Write them in two blocks."
-                self.log.stop("GROUP", text, block.line, block.column("M", taken[1]))
+                self.log.stop("GROUP", text, block.at("M", taken[1]))
 
     def _m_codes(self, block: Block) -> None:
         """Handle M codes that compensation or cutcomp refuses, that the machine's builder defines, and M61."""
         for code in block.m:
-            column = block.column("M", code)
+            place = block.at("M", code)
             if self.active and code in REFUSED_M:
                 rule, what = REFUSED_M[code]
                 text = (
                     f"M{code / 10:g} {what}, which is not allowed under compensation; write G40 in a block before it."
                 )
-                self.log.stop(rule, text, block.line, column)
+                self.log.stop(rule, text, place)
             if code == _SET_TOOL_CODE:
                 self._set_tool(block)
             if code in _RESTORE_CODES:
                 text = f"cutcomp does not restore what M{code / 10:g} restores. Write the codes themselves."
-                self.log.stop("BEYOND", text, block.line, column)
+                self.log.stop("BEYOND", text, place)
             if code >= 1000:
                 text = f"What M{code / 10:g} does is set up on the machine; cutcomp takes it as moving nothing."
-                self.log.report(Severity.INFO, "M", text, block.line, column)
+                self.log.inform("M", text, place)
 
     def _other_words(self, block: Block) -> None:
         """Check that M codes exist, that words have the code they need, and that the table has the tool of an H."""
@@ -162,7 +160,7 @@ class LinuxCnc(OneMoveQueue, Control):
         for code in block.m:
             if code not in _KNOWN_M:
                 text = f"M{code / 10:g} is not an M code of this control. Remove it."
-                self.log.stop("CODE", text, block.line, block.column("M", code))
+                self.log.stop("CODE", text, block.at("M", code))
         given = {f"G{code}" for code in block.g} | {f"M{code}" for code in block.m}
         mode = self._motion(block)
         if mode is not None:
@@ -171,23 +169,22 @@ class LinuxCnc(OneMoveQueue, Control):
             if letter in block.words and given.isdisjoint(codes_for):
                 text = f"No code in this block uses {letter}. Remove it."
                 text = f"{text} {D_AND_H_ANYWHERE}" if letter == "H" else text
-                self.log.stop("N-WORDALONE", text, block.line, block.column(letter))
+                self.log.stop("N-WORDALONE", text, block.at(letter))
         if 40 in block.g and block.words.get("P", -1.0) < 0.0:
-            text = "G4 needs P and the seconds to wait."
-            self.log.stop("N-WORDALONE", text, block.line, block.column("G", 40))
+            self.log.stop("N-WORDALONE", "G4 needs P and the seconds to wait.", block.at("G", 40))
         if "H" in block.words and _lacks(self.machine.tools, block.words["H"]):
             number = whole(block.words["H"])
-            self.log.stop("TOOL", missing_tool(number), block.line, block.column("H"), tool=number)
+            self.log.stop("TOOL", missing_tool(number), block.at("H"), tool=number)
 
     def _alone(self, block: Block) -> None:
         """Check that calls and numbers of subprograms stand alone, and that only one G code takes the axis words."""
         if 980 in block.m or "O" in block.words:
             if block.g or len(block.m) > 1 or not _CALL_LETTERS.issuperset(block.words):
                 text = "A call or a number of a subprogram must be alone in its block. Write the rest in another block."
-                self.log.stop("SUBPROGRAM", text, block.line, block.column("OM"))
+                self.log.stop("SUBPROGRAM", text, block.at("OM"))
         elif not _TAKES_AXES.isdisjoint(block.g) and any(code <= 30 and code != 40 for code in block.g):
             text = "Two G codes of this block use its axis words. Write them in two blocks."
-            self.log.stop("N-TWOG", text, block.line, block.column("G"))
+            self.log.stop("N-TWOG", text, block.at("G"))
 
     def _motion(self, block: Block) -> int | None:
         """Return the motion code that a block's words belong to."""
@@ -199,9 +196,9 @@ class LinuxCnc(OneMoveQueue, Control):
         number = whole(block.words.get("Q", -1.0))
         if number is None or number < 0:
             text = "M61 needs Q and the number of the tool that is in the spindle."
-            self.log.stop("N-WORDALONE", text, block.line, block.column("M", _SET_TOOL_CODE))
+            self.log.stop("N-WORDALONE", text, block.at("M", _SET_TOOL_CODE))
         if number and self.machine.tools.get(number) is None:
-            self.log.stop("TOOL", missing_tool(number), block.line, block.column("Q"), tool=number)
+            self.log.stop("TOOL", missing_tool(number), block.at("Q"), tool=number)
         self.machine.tool = number
         self.tool_changed()
 
@@ -213,23 +210,22 @@ class LinuxCnc(OneMoveQueue, Control):
     def _arc_words(self, block: Block) -> None:
         """Stop the run at I, J, K or R in a straight move, unless G10, G64 or M19 uses them."""
         if self._motion(block) in (0, 10) and not {100, 640}.intersection(block.g) and _ORIENT_CODE not in block.m:
-            column = block.column("IJKR")
-            text = "I, J, K and R go with G2 and G3 only. Remove them."
-            self.log.stop("N-WORDALONE", text, block.line, column)
+            place = block.at("IJKR")
+            self.log.stop("N-WORDALONE", "I, J, K and R go with G2 and G3 only. Remove them.", place)
 
     def takes_effect(self, code: int, block: Block) -> bool:
         """Stop the run at what compensation refuses; return False for G92.1 to G92.3, which then do nothing."""
         if code in _SHIFT_CANCEL_CODES:
             text = f"The control ignores G{code / 10:g} under compensation; write G40 before it."
-            self.log.report(Severity.WARNING, "N-OFFSETS", text, block.line, block.column("G", code))
+            self.log.warn("N-OFFSETS", text, block.at("G", code))
             return False
         if code in REFUSED_UNDER_COMPENSATION or (code == _G10 and self._sets_system_in_force(block)):
             rule, what = REFUSED_UNDER_COMPENSATION.get(code, ("N-OFFSETS", "changes the origin"))
             text = f"G{code / 10:g} {what}, which is not allowed under compensation; write G40 before it."
-            self.log.stop(rule, text, block.line, block.column("G", code))
+            self.log.stop(rule, text, block.at("G", code))
         if code in PLANE_OF_CODE and PLANE_OF_CODE[code] is not self.machine.plane:
             text = "The plane cannot be changed under compensation; write G40 before it."
-            self.log.stop("N-PLANE", text, block.line, block.column("G", code))
+            self.log.stop("N-PLANE", text, block.at("G", code))
         return True
 
     def _sets_system_in_force(self, block: Block) -> bool:
@@ -247,29 +243,28 @@ class LinuxCnc(OneMoveQueue, Control):
         """G41, G42, G41.1 and G42.1: turn compensation on."""
         if self.machine.plane is Plane.YZ:
             text = "Compensation works in the planes G17 and G18 only; write one of them before it."
-            self.log.stop("N-XZYZ", text, block.line, block.side_column())
+            self.log.stop("N-XZYZ", text, block.at_side())
         if self.active:
             text = "Compensation is on already; write G40 before it is turned on again."
-            self.log.stop("N-ONWHENON", text, block.line, block.side_column())
+            self.log.stop("N-ONWHENON", text, block.at_side())
         radius, orientation = self.radius(block)
         text = "The diameter is negative: the tool runs on the other side."
-        self.note_radius(radius, "NEGATIVE", text, block.line, block.side_column())
+        self.note_radius(radius, "NEGATIVE", text, block.at_side())
         if radius == 0.0:
-            self.machine.nothing_compensated("The radius is 0.", block.line, block.side_column())
+            self.machine.nothing_compensated("The radius is 0.", block.at_side())
         if "D" in block.words:
-            self.machine.compare_offset(radius, f"D{block.words['D']:g}", block.line, block.column("D"))
+            self.machine.compare_offset(radius, f"D{block.words['D']:g}", block.at("D"))
         self.turn_on(radius * side.sign, orientation)
 
     def compensation_off(self, block: Block) -> None:
         """G40: turn compensation off."""
-        self.turn_off(block.line)
+        self.turn_off(block)
 
     def radius(self, block: Block) -> tuple[float, int]:
         """Return the programmed radius, millimeters, negative to flip the side; and a lathe tool's orientation."""
         if not {411, 421}.isdisjoint(block.g):
             if "D" not in block.words:
-                text = "G41.1 and G42.1 need D and the cutter's diameter."
-                self.log.stop("N-DMISSING", text, block.line, block.side_column())
+                self.log.stop("N-DMISSING", "G41.1 and G42.1 need D and the cutter's diameter.", block.at_side())
             return block.words["D"] * self.machine.scale / 2, self._orientation(block)
         number = self.machine.tool
         if "D" in block.words:
@@ -280,18 +275,17 @@ class LinuxCnc(OneMoveQueue, Control):
         if tool is None:
             if number == 0 or "D" not in block.words:
                 text = "No tool is loaded, so the radius is 0."
-                self.machine.nothing_compensated(text, block.line, block.side_column())
+                self.machine.nothing_compensated(text, block.at_side())
                 return 0.0, 0
-            self.log.stop("N-DBIG", missing_tool(number), block.line, block.column("D"), tool=number)
+            self.log.stop("N-DBIG", missing_tool(number), block.at("D"), tool=number)
         if tool.orientation not in (0, 9) and self.machine.plane is not Plane.ZX:
-            text = "The tool is a lathe tool and needs the plane G18."
-            self.log.stop("N-ORIENTATION", text, block.line, block.side_column())
+            self.log.stop("N-ORIENTATION", "The tool is a lathe tool and needs the plane G18.", block.at_side())
         return tool.diameter_mm(self.machine.unit) / 2, tool.orientation
 
     def _orientation(self, block: Block) -> int:
         if "L" in block.words and self.machine.plane is not Plane.ZX:
             text = "L, the orientation of a lathe tool, goes with G18 only. Remove it."
-            self.log.stop("N-ORIENTATION", text, block.line, block.column("L"))
+            self.log.stop("N-ORIENTATION", text, block.at("L"))
         return int(block.words.get("L", 0.0))
 
 

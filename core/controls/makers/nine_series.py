@@ -26,13 +26,12 @@ from core.controls.compensation.corner_rules import (
 )
 from core.controls.compensation.element_queue import ElementQueue
 from core.controls.compensation.elements import Element, fits, offset_end, offset_radius, offset_start
-from core.controls.control_run import Log
+from core.controls.control_run import Log, Place
 from core.controls.iso.arcs import IN_PLANE
 from core.controls.iso.dialect import CYCLES_APART, PLANE_OF_CODE, USUAL_CODES, CodeAction, Dialect, codes
 from core.controls.iso.flow import MakeControl
 from core.controls.iso.machine import Control
 from core.controls.iso.reader import COMPENSATION_CODES, Block, Syntax, whole_word
-from core.finding import Severity
 from core.geometry.piece import Point, Side
 from core.units import Unit
 
@@ -104,24 +103,23 @@ class NineSeries(ElementQueue, Control):
                 text = (
                     f"M{code // 10} turns the alarms for backwards moves and crossing vectors {'on' if on else 'off'}."
                 )
-                self.log.report(Severity.INFO, "R11", text, block.line, block.column("M", code))
+                self.log.inform("R11", text, block.at("M", code))
         if self.active and not {0, 10}.isdisjoint(block.m):
             text = "Moves by hand or MDI at this stop are not compensated; compensation starts anew after them."
-            self.log.report(Severity.INFO, "R6", text, block.line, block.column("M"))
+            self.log.inform("R6", text, block.at("M"))
         if self.active and not _OFFSET_CHANGE_CODES.isdisjoint(block.g):
             self._interrupt(block)
         if self.active and not _MACHINE_POSITION_CODES.isdisjoint(block.g):
             text = "cutcomp does not know what compensation does with a move to a machine point. Write G40 before it."
-            self.log.stop("HOME", text, block.line, block.column("G"))
+            self.log.stop("HOME", text, block.at("G"))
         if self.active and self.exit_block is None and not PLANE_OF_CODE.keys().isdisjoint(block.g):
-            text = "The plane is not changed under compensation; write G40 before."
-            self.log.stop("PLANE", text, block.line, block.side_column())
+            self.log.stop("PLANE", "The plane is not changed under compensation; write G40 before.", block.at_side())
 
     def _take_number(self, block: Block) -> None:
         self.number = number = whole_word(block, "D", self.log, "NUMBER", "D is an offset number, a whole number.")
         if number == 0 and (self.active or not COMPENSATION_CODES.isdisjoint(block.g)):
             text = "D0 does not cancel compensation, it goes on with radius 0; write G40 to cancel."
-            self.log.report(Severity.WARNING, "R3", text, block.line, block.column("D"))
+            self.log.warn("R3", text, block.at("D"))
         if (
             self.active
             and self.exit_block is None
@@ -137,11 +135,11 @@ class NineSeries(ElementQueue, Control):
         tool = self.machine.tools.get(self.number)
         if tool is None:
             text = f"Offset {self.number} is not entered; enter its radius or write another D."
-            self.log.stop("TOOL", text, block.line, block.column("DG"), tool=self.number)
+            self.log.stop("TOOL", text, block.at("DG"), tool=self.number)
         radius = tool.diameter_mm(self.machine.unit) / 2
         text = "The radius is negative: the tool runs on the other side."
-        self.note_radius(radius, "R4", text, block.line, block.column("DG"))
-        self.machine.compare_offset(radius, f"D{self.number}", block.line, block.column("DG"))
+        self.note_radius(radius, "R4", text, block.at("DG"))
+        self.machine.compare_offset(radius, f"D{self.number}", block.at("DG"))
         return radius
 
     def maker_code(self, code: int, _: Block) -> None:
@@ -155,11 +153,11 @@ class NineSeries(ElementQueue, Control):
         else:
             self.change_stretch(self.coming, 1 + len(self.standing), joint.moves)
 
-    def _report_assumed(self, rule: str, text: str, line: int) -> None:
+    def _report_assumed(self, rule: str, text: str, place: Place) -> None:
         """Report once that the path depends on a value that the machine builder sets."""
         if not self.log.has(rule):
             words = f"This depends on a value the machine builder sets (first at this line): {text}"
-            self.log.report(Severity.INFO, rule, words, line, 1)
+            self.log.inform(rule, words, place)
 
     def compensation_on(self, side: Side, block: Block) -> None:
         """G41 and G42: start compensation or change the side."""
@@ -168,15 +166,14 @@ class NineSeries(ElementQueue, Control):
             self._cancel()
         if not self.active:
             if self.machine.mode in (20, 30):
-                self._circular_start(block.line, block.side_column())
+                self._circular_start(block.at_side())
             self.active, self.entering, self.motionless = True, True, 0
             self.held, self.start, self.elements = None, None, 0
         self.written_side = side
         self.coming = self._offset_radius(block) * side.sign
 
-    def _circular_start(self, line: int, column: int) -> None:
-        text = "Compensation cannot be started in G2 or G3; write G1 and a straight entry move."
-        self.log.stop("R1", text, line, column)
+    def _circular_start(self, place: Place) -> None:
+        self.log.stop("R1", "Compensation cannot be started in G2 or G3; write G1 and a straight entry move.", place)
 
     def compensation_off(self, block: Block) -> None:
         """G40: make the next straight move in the plane the exit, or cancel at once if no move is held."""
@@ -196,7 +193,7 @@ class NineSeries(ElementQueue, Control):
             f"More than {NON_MOTION} blocks without motion (an assumed limit, the machine builder sets it): the move "
             "ends square and may overcut. Remove some of these blocks."
         )
-        self.log.report(Severity.WARNING, "R5", text, block.line, 1)
+        self.log.warn("R5", text, block)
         self.release_at_end()
         self.entering = True
 
@@ -204,7 +201,7 @@ class NineSeries(ElementQueue, Control):
         """Run one element: as entry, compensated, as exit, or without compensation."""
         if not self.active:
             if self.leaving and element.turn:
-                self._circular_exit(element.line)
+                self._circular_exit(element)
             super().travel(element)
         elif not element.moves:
             self._across(element)
@@ -218,8 +215,7 @@ class NineSeries(ElementQueue, Control):
         self.motionless += 1
         if self.held is None or self.exit_block is not None:
             what = "start" if self.exit_block is None else "end"
-            text = f"Compensation will {what} at the next move in the plane, not at this one."
-            self.log.report(Severity.INFO, "R12", text, element.line, 1)
+            self.log.inform("R12", f"Compensation will {what} at the next move in the plane, not at this one.", element)
         if self.held is None:
             self.note(element)
             self.straight(element, self.here)
@@ -230,19 +226,19 @@ class NineSeries(ElementQueue, Control):
         self.motionless = 0
         if self.held is None and self.entering:
             if element.turn:
-                self._circular_start(element.line, 1)
+                self._circular_start(element)
             if not self.stretch_open:
                 self.open_stretch(self.coming, element)
         elif not fits(element, self.coming):
             text = "The arc radius {0} must be larger than the cutter radius {1}. Use a smaller cutter."
-            self.log.stop("R9", text, element.line, 1, lengths=(element.radius, abs(self.coming)))
+            self.log.stop("R9", text, element, lengths=(element.radius, abs(self.coming)))
         self.before = Before(len(self.tape), self.held, self.start, tuple(self.standing))
         self.hold(element)
         self.offset = self.coming
 
     def _without_offset(self, element: Element) -> None:
         if self.coming == 0.0:
-            self.machine.nothing_compensated("The offset is 0; write D and an offset's number.", element.line, 1)
+            self.machine.nothing_compensated("The offset is 0; write D and an offset's number.", element)
 
     def joint(self, first: Element, second: Element) -> Joint:
         """Return this control's joint: at the entry, at a change, or at an inside or outside corner."""
@@ -256,7 +252,7 @@ class NineSeries(ElementQueue, Control):
             return self._with_notice(joint, second)
         if self.coming != self.offset:
             text = "The side or the radius changes at this line. cutcomp assumes the moves across; the manual has none."
-            self.log.report(Severity.INFO, "CHANGE", text, second.line, 1)
+            self.log.inform("CHANGE", text, second)
             joint = offset_change_joint(first, second, self.offset, self.coming)
             self._continue_stretch(joint)
             return joint
@@ -269,13 +265,13 @@ class NineSeries(ElementQueue, Control):
         """Return the joint, and report that its generated blocks may have any length."""
         if joint.through or joint.center is not None or joint.end != joint.start:
             text = "cutcomp takes the least length of a generated block (AMP) as 0; the control drops a shorter one."
-            self._report_assumed("AMP", text, element.line)
+            self._report_assumed("AMP", text, element)
         return joint
 
     def _report_type_b(self, first: Element, second: Element) -> None:
         if not self.type_a and inward_turn(first, second, self.offset) < 0.0:
             text = "cutcomp takes the generated blocks of a type B entry from figures; the manual's text lacks them."
-            self.log.report(Severity.INFO, "TYPE-B", text, first.line, 1)
+            self.log.inform("TYPE-B", text, first)
 
     def _missed(self, first: Element, second: Element) -> Joint:
         """Return the joint of an inside corner whose offsets do not meet: it is tangent, or an alarm."""
@@ -283,39 +279,38 @@ class NineSeries(ElementQueue, Control):
         if inward_turn(first, second, self.offset) < MAX_TANGENT_ANGLE:
             return Joint(end, end)
         text = "The offset paths do not meet at this inside corner: the compensation vectors cross."
-        self._interference("R10", text, second.line)
+        self._interference("R10", text, second)
         return Joint(end, offset_start(second, self.offset))
 
     def backwards(self, element: Element) -> None:
         """Report a line that would run backwards, or an arc whose ends have crossed."""
         if element.turn:
             text = "The compensation vectors of this arc cross: the cutter is too large for it."
-            self._interference("R10", text, element.line)
+            self._interference("R10", text, element)
         else:
             text = "The compensated move runs backwards: the cutter is too large for this block."
-            self._interference("R8", text, element.line)
+            self._interference("R8", text, element)
 
-    def _interference(self, rule: str, text: str, line: int) -> None:
+    def _interference(self, rule: str, text: str, place: Place) -> None:
         if self.checks:
-            self.log.stop(rule, f"{text} Use a smaller cutter.", line, 1)
-        self.log.report(Severity.WARNING, rule, f"{text} The alarm is switched off by M800.", line, 1)
+            self.log.stop(rule, f"{text} Use a smaller cutter.", place)
+        self.log.warn(rule, f"{text} The alarm is switched off by M800.", place)
 
     def feed_of(self, element: Element) -> float:
         """Return the feed of the center: inside an arc the surface keeps the programmed feed, outside the center."""
         if not element.turn or element.turn * self.offset <= 0.0:
             return element.feed
         text = "cutcomp takes the least feed inside arcs (MFR) as 0; the control may feed faster."
-        self._report_assumed("MFR", text, element.line)
+        self._report_assumed("MFR", text, element)
         return element.feed * offset_radius(element, self.offset) / element.radius
 
-    def _circular_exit(self, line: int) -> None:
-        text = "Block format error: the move that cancels compensation must be straight. Write G1."
-        self.log.stop("R2", text, line, 1)
+    def _circular_exit(self, place: Place) -> None:
+        self.log.stop("R2", "Block format error: the move that cancels compensation must be straight. Write G1.", place)
 
     def _exit(self, element: Element) -> None:
         """Run the exit move: from the square end, around the corner (type B), or from the end that a vector sets."""
         if element.turn:
-            self._circular_exit(element.line)
+            self._circular_exit(element)
         held, block = self.held, self.exit_block
         if held is None or block is None:
             return
@@ -341,7 +336,7 @@ class NineSeries(ElementQueue, Control):
     def _interrupt(self, block: Block) -> None:
         """At a change of origin, make the last move an exit move and the next one an entry move."""
         text = "The origin changes under compensation: the last move leaves it and the next one enters it again."
-        self.log.report(Severity.WARNING, "R7", text, block.line, block.column("G"))
+        self.log.warn("R7", text, block.at("G"))
         before, last, standing = self.before, self.held, self.standing
         if last is None:
             return

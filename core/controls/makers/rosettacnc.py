@@ -15,7 +15,7 @@ from typing import Final, NoReturn
 from core.controls.compensation.corner_rules import CornerKind, CornerRules
 from core.controls.compensation.element_queue import AlarmCodes, ElementQueue, OneMoveQueue
 from core.controls.compensation.elements import Element, fits, offset_end, offset_start
-from core.controls.control_run import Log
+from core.controls.control_run import Log, Place
 from core.controls.control_tools import missing_tool
 from core.controls.iso.code_support import D_AND_H_ANYWHERE
 from core.controls.iso.dialect import PLANE_OF_CODE, USUAL_CODES, CodeAction, Dialect, codes
@@ -23,7 +23,6 @@ from core.controls.iso.expressions import ParameterStore
 from core.controls.iso.machine import Control
 from core.controls.iso.reader import COMPENSATION_CODES, Block, whole_word
 from core.controls.moves import Plane
-from core.finding import Severity
 from core.geometry.piece import Point, Side
 from core.units import Unit
 
@@ -55,43 +54,41 @@ class RosettaCnc(Control):
 
     def asked_offset(self, side: Side, block: Block) -> float:
         """Return the programmed signed radius, in millimeters; stop the run if it is wrong or missing."""
-        column = block.side_column()
+        place = block.at_side()
         if self.active:
-            text = "Compensation is on already; write G40 before it is turned on again."
-            self.log.stop("C2", text, block.line, column)
+            self.log.stop("C2", "Compensation is on already; write G40 before it is turned on again.", place)
         by_diameter = not {411, 421}.isdisjoint(block.g)
         radius = self._diameter(block) / 2 if by_diameter else self._table_radius(block)
         if radius == 0.0:
-            self.machine.nothing_compensated("The radius is 0.", block.line, column)
+            self.machine.nothing_compensated("The radius is 0.", place)
         text = "The radius is negative and changes the side. cutcomp assumes this; the manual does not say."
-        self.note_radius(radius, "NEGATIVE", text, block.line, column)
+        self.note_radius(radius, "NEGATIVE", text, place)
         if "D" in block.words:
-            self.machine.compare_offset(radius, f"D{block.words['D']:g}", block.line, block.column("D"))
+            self.machine.compare_offset(radius, f"D{block.words['D']:g}", block.at("D"))
         return radius * side.sign
 
     def _diameter(self, block: Block) -> float:
         if self.plane is Plane.YZ:
             text = "G41.1 and G42.1 do not work in the plane G19; write G41 or another plane."
-            self.log.stop("C3", text, block.line, block.side_column())
+            self.log.stop("C3", text, block.at_side())
         if "D" not in block.words:
-            text = "G41.1 and G42.1 need D and the cutter's diameter."
-            self.log.stop("C1", text, block.line, block.side_column())
+            self.log.stop("C1", "G41.1 and G42.1 need D and the cutter's diameter.", block.at_side())
         self._orientation(block)
         return block.words["D"] * self.machine.scale
 
     def _orientation(self, block: Block) -> None:
         if "L" not in block.words:
             return
-        column, text = block.column("L"), "L, the orientation of a lathe tool, is 0 to 9."
+        place, text = block.at("L"), "L, the orientation of a lathe tool, is 0 to 9."
         number = whole_word(block, "L", self.log, "C4", text, 0, 9)
         if self.plane is not Plane.ZX:
-            self.log.stop("C5", "L goes with the plane G18 only. Remove it.", block.line, column)
-        self._nose(number, block, column)
+            self.log.stop("C5", "L goes with the plane G18 only. Remove it.", place)
+        self._nose(number, place)
 
-    def _nose(self, orientation: int, block: Block, column: int) -> None:
+    def _nose(self, orientation: int, place: Place) -> None:
         if orientation not in (0, 9):
             text = "The moves are those of the tool nose center; cutcomp does not shift them by the orientation."
-            self.log.report(Severity.WARNING, "ORIENTATION", text, block.line, column)
+            self.log.warn("ORIENTATION", text, place)
 
     def _table_radius(self, block: Block) -> float:
         machine, log = self.machine, self.log
@@ -100,13 +97,13 @@ class RosettaCnc(Control):
             number = whole_word(block, "D", log, "C1", "D is a tool number, 1 or more; a diameter goes with G41.1.", 1)
         tool = machine.tools.get(number)
         if tool is None and number:
-            column = block.column("D") if "D" in block.words else block.side_column()
-            log.stop("C1", missing_tool(number), block.line, column, tool=number)
+            place = block.at("D") if "D" in block.words else block.at_side()
+            log.stop("C1", missing_tool(number), place, tool=number)
         if tool is None and "I" not in block.words:
             text = "No tool is loaded and there is no D, so the radius is 0."
-            machine.nothing_compensated(text, block.line, block.side_column())
+            machine.nothing_compensated(text, block.at_side())
         if tool is not None:
-            self._nose(tool.orientation, block, block.side_column())
+            self._nose(tool.orientation, block.at_side())
         radius = tool.diameter_mm(machine.unit) / 2 if tool else 0.0
         return radius - block.words.pop("I", 0.0) * machine.scale
 
@@ -115,14 +112,13 @@ class RosettaCnc(Control):
         self.machine.check_codes(block)
         if "D" in block.words and COMPENSATION_CODES.isdisjoint(block.g):
             text = "D needs G41 or G42 in its block. cutcomp assumes this from NIST's list; the manual does not say."
-            text = f"{text} {D_AND_H_ANYWHERE}"
-            self.log.stop("C8", text, block.line, block.column("D"))
+            self.log.stop("C8", f"{text} {D_AND_H_ANYWHERE}", block.at("D"))
         if not self.active:
             return
         for code in _NOT_NOW.intersection(block.g):
             if PLANE_OF_CODE.get(code) is not self.plane:
                 text = f"G{code / 10:g} is not allowed under compensation. cutcomp assumes this from NIST's list."
-                self.log.stop("C8", text, block.line, block.column("G", code))
+                self.log.stop("C8", text, block.at("G", code))
 
 
 class NormalEntry(OneMoveQueue, RosettaCnc):
@@ -134,11 +130,11 @@ class NormalEntry(OneMoveQueue, RosettaCnc):
         """G41, G42, G41.1 and G42.1: turn compensation on."""
         self.turn_on(self.asked_offset(side, block))
         text = "The entry follows LinuxCNC: square to its own move. cutcomp assumes this; the manual does not say."
-        self.log.report(Severity.INFO, "ENTRY", text, block.line, block.side_column())
+        self.log.inform("ENTRY", text, block.at_side())
 
     def compensation_off(self, block: Block) -> None:
         """G40: turn compensation off."""
-        self.turn_off(block.line)
+        self.turn_off(block)
 
 
 class NistEntry(ElementQueue, RosettaCnc):
@@ -156,7 +152,7 @@ class NistEntry(ElementQueue, RosettaCnc):
         super().before_block(block)
         if self.active and not {200, 210}.isdisjoint(block.g):
             text = "The unit cannot change under compensation. cutcomp assumes this from NIST's list."
-            self.log.stop("C8", text, block.line, block.side_column())
+            self.log.stop("C8", text, block.at_side())
 
     def compensation_on(self, side: Side, block: Block) -> None:
         """G41, G42, G41.1 and G42.1: turn compensation on."""
@@ -192,7 +188,7 @@ class NistEntry(ElementQueue, RosettaCnc):
             self._refuse_arc(element, "An arc as first move must touch the tool where it stands; write a line")
         if length <= radius:
             text = "The first move is {0} long and must be longer than the radius {1}. cutcomp takes this from NIST."
-            self.log.stop("C8", text, element.line, 1, lengths=(length, radius))
+            self.log.stop("C8", text, element, lengths=(length, radius))
         self.open_stretch(self.offset, element)
         self.note(element)
         angle = atan2(sy - py, sx - px) - acos(radius / length) * sign
@@ -202,7 +198,7 @@ class NistEntry(ElementQueue, RosettaCnc):
         self.first = False
 
     def _refuse_arc(self, element: Element, what: str) -> NoReturn:
-        self.log.stop("C8", f"{what}. cutcomp assumes this from NIST's rules.", element.line, 1)
+        self.log.stop("C8", f"{what}. cutcomp assumes this from NIST's rules.", element)
 
     def _corner(self, element: Element) -> None:
         if self.before is None:
@@ -210,14 +206,14 @@ class NistEntry(ElementQueue, RosettaCnc):
         joint = self.joint(self.before, element)
         if joint.corner is CornerKind.INSIDE:
             text = "An inside corner is an error with this entry. Round it in the program or use the normal entry."
-            self.log.stop("C6", text, element.line, 1, at=element.start)
+            self.log.stop("C6", text, element, at=element.start)
         self.run_joint(joint, element, self.offset)
 
     def follow(self, element: Element) -> None:
         """Run a move on its offset, to the offset point at its end."""
         if not fits(element, self.offset):
             text = "The arc radius {0} must be larger than the cutter radius {1}. Use a smaller cutter."
-            self.log.stop("C7", text, element.line, 1, lengths=(element.radius, abs(self.offset)))
+            self.log.stop("C7", text, element, lengths=(element.radius, abs(self.offset)))
         self.note(element)
         self.held = self.before = element
         self.run_held(offset_end(element, self.offset))

@@ -15,7 +15,7 @@ from typing import Final, NoReturn
 from core.controls.compensation.corner_rules import CornerKind, CornerRules, Joint
 from core.controls.compensation.element_queue import ElementQueue
 from core.controls.compensation.elements import Element, element_sweep, fits, offset_end, offset_radius, offset_start
-from core.controls.control_run import Log
+from core.controls.control_run import Log, Place, Spot
 from core.controls.iso.code_support import D_AND_H_ANYWHERE
 from core.controls.iso.dialect import CodeAction, Dialect, codes
 from core.controls.iso.machine import Control
@@ -77,83 +77,79 @@ class ThreeBlock(ElementQueue, Control):
         self._decimals(block)
         if self.machine.incremental and not {"I", "J"}.isdisjoint(block.words):
             text = "Under G91 cutcomp counts the center from the arc's start; the manual does not say."
-            self.log.report(Severity.INFO, "G91-CENTER", text, block.line, block.column("IJ"))
+            self.log.inform("G91-CENTER", text, block.at("IJ"))
         # D in a block with G41 or G42 may name the tool that is called, as on other controls
         same_tool = not COMPENSATION_CODES.isdisjoint(block.g) and self.machine.tool in (0, block.words.get("D"))
         if "D" in block.words and not same_tool:
             text = "This control has no D: its radius is that of T. Write T and the diameter, as in T1//.5."
-            self.log.stop("CODE", f"{text} {D_AND_H_ANYWHERE}", block.line, block.column("D"))
+            self.log.stop("CODE", f"{text} {D_AND_H_ANYWHERE}", block.at("D"))
         if "R" in block.words:
-            text = "cutcomp does not know how this control takes R. Use I and J."
-            self.log.report(Severity.WARNING, "RADIUS", text, block.line, block.column("R"))
+            self.log.warn("RADIUS", "cutcomp does not know how this control takes R. Use I and J.", block.at("R"))
         if not self.active:
             return
         if block.m:
             text = "No M code from the block after G41 or G42 to the block with G40. Write it before or after."
-            self.log.stop("B14-MCODE", text, block.line, block.column("M"))
+            self.log.stop("B14-MCODE", text, block.at("M"))
         if not {180, 190}.isdisjoint(block.g) and 170 not in block.g:
             self.wrong_plane(block)
         wrong = next((code for code in block.g if code in _REFUSED_UNDER_COMPENSATION), None)
         if wrong is not None:
             text = f"cutcomp does not know what compensation does at G{wrong / 10:g}. Write G40 before it."
-            self.log.stop("ORIGIN", text, block.line, block.column("G", wrong))
+            self.log.stop("ORIGIN", text, block.at("G", wrong))
         if 990 in block.g:
             text = "The control drops this G99 under compensation and puts its own between tangent moves."
-            self.log.report(Severity.INFO, "B15-G99", text, block.line, block.column("G", 990))
+            self.log.inform("B15-G99", text, block.at("G", 990))
 
     def wrong_plane(self, block: Block) -> NoReturn:
         """Stop the run: compensation works in the XY plane only."""
-        text = "Compensation works in the XY plane only; write G17."
-        self.log.stop("B1-PLANE", text, block.line, block.column("G"))
+        self.log.stop("B1-PLANE", "Compensation works in the XY plane only; write G17.", block.at("G"))
 
     def _decimals(self, block: Block) -> None:
         pointless = _POINTLESS.search(block.text)
         if pointless:
             text = "cutcomp reads a coordinate without a decimal point as whole units. Write the point."
-            self.log.report(Severity.WARNING, "B22-DECIMAL", text, block.line, block.start + pointless.start() + 1)
+            self.log.warn("B22-DECIMAL", text, Spot(block.line, block.start + pointless.start() + 1))
 
     def tool_called(self, number: int, block: Block) -> None:
         """Stop the run at a tool number outside 1 to 24, and at any tool call under compensation."""
         if self.active:
             text = "The tool and its diameter stay while compensation is on; write G40 before."
-            self.log.stop("B9-AMOUNT", text, block.line, block.column("T"))
+            self.log.stop("B9-AMOUNT", text, block.at("T"))
         if not 1 <= number <= 24:
-            text = f"This control has tools 1 to 24; {number} is not one of them."
-            self.log.stop("B19-TRANGE", text, block.line, block.column("T"))
+            self.log.stop("B19-TRANGE", f"This control has tools 1 to 24; {number} is not one of them.", block.at("T"))
 
     def maker_code(self, code: int, block: Block) -> None:
         """G45 and the G44 that ends it; G99 does not change the path."""
         if code == 450 and not self.ratio:
             text = "cutcomp assumes that G45 holds until G44; the manual does not say."
-            self.log.report(Severity.INFO, "G45", text, block.line, block.column("G", 450))
+            self.log.inform("G45", text, block.at("G", 450))
         self.ratio = code == 450 if code in (440, 450) else self.ratio
 
     def compensation_on(self, side: Side, block: Block) -> None:
         """G41, G42: check the conditions, and apply the offset from the next block on."""
-        column = block.side_column()
+        place = block.at_side()
         if self.active:
             self._again(side, block)
             return
         if self.machine.plane is not Plane.XY:
             self.wrong_plane(block)
         if self.machine.mode not in (0, 10):
-            self.log.stop("B2-MODE", "G41 and G42 need G0 or G1; write it in this block.", block.line, column)
+            self.log.stop("B2-MODE", "G41 and G42 need G0 or G1; write it in this block.", place)
         offset = self._radius(block) * side.sign
         if offset == 0.0:
             text = "The diameter is 0: G41 and G42 turn nothing on."
-            self.machine.nothing_compensated(text, block.line, column, code="B3-DIA0", severity=Severity.INFO)
+            self.machine.nothing_compensated(text, place, code="B3-DIA0", severity=Severity.INFO)
             return
         self.offset, self.active, self.opening = offset, True, True
         self.blocks, self.held, self.start, self.elements = [], None, None, 0
         self.turned_on = block.line
 
     def _again(self, side: Side, block: Block) -> None:
-        column = block.side_column()
+        place = block.at_side()
         if self._radius(block) * side.sign * self.offset < 0.0:
-            text = "G41 and G42 cannot be swapped while compensation is on. Write G40 before."
-            self.log.stop("B8-SIDE", text, block.line, column)
+            self.log.stop("B8-SIDE", "G41 and G42 cannot be swapped while compensation is on. Write G40 before.", place)
         text = "Compensation is on already on this side. cutcomp assumes that is allowed; the manual does not say."
-        self.log.report(Severity.WARNING, "B8-SIDE", text, block.line, column)
+        self.log.warn("B8-SIDE", text, place)
 
     def _radius(self, block: Block) -> float:
         """Return half the diameter in force, in millimeters."""
@@ -162,39 +158,37 @@ class ThreeBlock(ElementQueue, Control):
             text = f"The diameter of tool {self.machine.tool} is not entered; write T1/length/diameter before."
             if self.machine.tool == 0:
                 text = "The tool number must come before G41 or G42. Write T and the number."
-            self.log.stop("B5-TOOL", text, block.line, block.side_column(), tool=self.machine.tool or None)
+            self.log.stop("B5-TOOL", text, block.at_side(), tool=self.machine.tool or None)
         diameter = tool.diameter_mm(self.machine.unit)
         if abs(diameter) > LARGEST_DIAMETER + 1e-6:
             text = "The diameter {0} is beyond the largest of this control, {1}."
             lengths = (diameter, LARGEST_DIAMETER)
-            self.log.stop("B4-MAX", text, block.line, block.side_column(), lengths=lengths)
+            self.log.stop("B4-MAX", text, block.at_side(), lengths=lengths)
         text = "The diameter is negative: the tool runs on the other side."
-        self.note_radius(diameter / 2, "NEGATIVE", text, block.line, block.side_column())
+        self.note_radius(diameter / 2, "NEGATIVE", text, block.at_side())
         return diameter / 2
 
     def block_without_motion(self, block: Block) -> None:
         """Stop the run at a block that moves nothing, unless it is the one with G41 or G42."""
         if not self.opening:
-            text = "Under compensation every block must move the tool. Remove this one."
-            self.log.stop("B10-NOMOVE", text, block.line, block.start + 1)
+            self.log.stop("B10-NOMOVE", "Under compensation every block must move the tool. Remove this one.", block)
 
     def travel(self, element: Element) -> None:
         """Run the turn-on block and moves without compensation as programmed, all others on the offset."""
         if not self.active or self.opening:
             if self.leaving and element.turn:
-                self._arc_exit(element.line, 1)
+                self._arc_exit(element)
             super().travel(element)
             return
         if not element.moves and element.start_height == element.end_height:
-            text = "Under compensation every block must move the tool. Remove this one."
-            self.log.stop("B10-NOMOVE", text, element.line, 1)
+            self.log.stop("B10-NOMOVE", "Under compensation every block must move the tool. Remove this one.", element)
         self._height(element)
         self._approach(element)
         self._collinear(element)
         if element.turn and not fits(element, self.offset):
             text = "The arc radius {0} is not larger than the cutter radius {1}: the cutter gouges without an alarm."
             lengths = (element.radius, abs(self.offset))
-            self.log.report(Severity.WARNING, "B16-NARROW", text, element.line, 1, lengths=lengths)
+            self.log.warn("B16-NARROW", text, element, lengths=lengths)
         self.hold(element)
 
     def _height(self, element: Element) -> None:
@@ -203,20 +197,18 @@ class ThreeBlock(ElementQueue, Control):
         self.blocks.append((element.line, rises, element.moves))
         if rises and len(self.blocks) <= 3:
             text = "No Z in the first three compensated blocks; move Z in the block with G41 or after them."
-            self.log.stop("B12-ZENDS", text, element.line, 1)
+            self.log.stop("B12-ZENDS", text, element)
         if rises and element.turn:
             text = "Under compensation Z goes with straight moves only. How an arc with Z runs is an assumption."
-            self.log.report(Severity.WARNING, "B12z-ZARC", text, element.line, 1)
+            self.log.warn("B12z-ZARC", text, element)
         if not element.moves and any(rose and not moved for _, rose, moved in self.blocks[-3:-1]):
-            text = "Program two blocks with X or Y between two Z-only blocks."
-            self.log.stop("B13-ZSEP", text, element.line, 1)
+            self.log.stop("B13-ZSEP", "Program two blocks with X or Y between two Z-only blocks.", element)
 
     def _approach(self, element: Element) -> None:
         if self.held is not None or not element.moves:
             return
         if element.turn:
-            text = "The block after G41 or G42 is the approach; it must be straight."
-            self.log.stop("B6-APPR", text, element.line, 1)
+            self.log.stop("B6-APPR", "The block after G41 or G42 is the approach; it must be straight.", element)
         self.open_stretch(self.offset, element)
 
     def _collinear(self, element: Element) -> None:
@@ -226,7 +218,7 @@ class ThreeBlock(ElementQueue, Control):
         (ax, ay), (bx, by) = held.end_direction, element.start_direction
         if abs(ax * by - ay * bx) < MAX_TANGENT_ANGLE:
             text = "Two straight moves in a row lie on one line. Join them into one move."
-            self.log.stop("B11-COLLINEAR", text, element.line, 1)
+            self.log.stop("B11-COLLINEAR", text, element)
 
     def joint(self, first: Element, second: Element) -> Joint:
         """Return the approach's square end, then the meeting of the offsets inside, or an arc outside."""
@@ -241,7 +233,7 @@ class ThreeBlock(ElementQueue, Control):
     def _report_g99(self, element: Element) -> None:
         if not self.inserted:
             text = "Between tangent moves, first at this line, the control puts its own G99: it does not slow down."
-            self.log.report(Severity.INFO, "G99", text, element.line, 1)
+            self.log.inform("G99", text, element)
         self.inserted = True
 
     def backwards(self, element: Element) -> None:
@@ -250,7 +242,7 @@ class ThreeBlock(ElementQueue, Control):
         rule = "B16-NARROW" if narrow else "B17-STEP"
         what = "The feature is narrower than the cutter" if narrow else "The step is smaller than the cutter's radius"
         text = f"{what}: this block runs backwards and gouges without an alarm; use a smaller cutter."
-        self.log.report(Severity.WARNING, rule, text, element.line, 1)
+        self.log.warn(rule, text, element)
 
     def release(self, end: Point) -> None:
         """Run the held element to a point; trims at both its ends mean a narrow feature, else it is a step."""
@@ -268,7 +260,7 @@ class ThreeBlock(ElementQueue, Control):
             length = element_sweep(element) * abs(offset_radius(element, self.offset))
         if feed and not element.rapid and length / feed * 60 < SHORTEST_BLOCK_SECONDS:
             text = "This block takes less than a quarter of a second: the control dwells."
-            self.log.report(Severity.INFO, "B18-SHORT", text, element.line, 1)
+            self.log.inform("B18-SHORT", text, element)
 
     def feed_of(self, element: Element) -> float:
         """Return the feed; under G45 an arc's feed scales with the radius of the tool's path."""
@@ -280,29 +272,28 @@ class ThreeBlock(ElementQueue, Control):
         """G40: end the last element square; the block's own move follows without compensation."""
         if not self.active:
             return
-        column = block.column("G", 400)
+        place = block.at("G", 400)
         moves = not {"X", "Y"}.isdisjoint(block.words)
         if moves and self.machine.mode not in (0, 10):
-            self._arc_exit(block.line, column)
+            self._arc_exit(place)
         if len(self.blocks) < 3:
-            text = "Program at least three compensated blocks between G41 or G42 and G40."
-            self.log.stop("B7-MIN5", text, block.line, column)
+            self.log.stop("B7-MIN5", "Program at least three compensated blocks between G41 or G42 and G40.", place)
         for line, rises, _ in self.blocks[-3:]:
             if rises:
                 text = "No Z in the last three compensated blocks; move Z before them or after G40."
-                self.log.stop("B12-ZENDS", text, line, 1, stops_at=block.line)
+                self.log.stop("B12-ZENDS", text, Spot(line), stops_at=block.line)
         self.release_at_end()
         self.leave()
         self.active = False
 
-    def _arc_exit(self, line: int, column: int) -> NoReturn:
+    def _arc_exit(self, place: Place) -> NoReturn:
         text = "The move that leaves compensation must be straight. Write G0 or G1. The manual only implies this."
-        self.log.stop("B20-G40ARC", text, line, column)
+        self.log.stop("B20-G40ARC", text, place)
 
     def end(self, _: int) -> None:
         """End of the program: report compensation that is still on, and end the last element square."""
         if self.active:
             text = "The program ends with compensation on. Write a block with G40. That it needs one is an assumption."
             line = self.blocks[-1][0] if self.blocks else self.turned_on
-            self.log.report(Severity.ERROR, "B21-NOG40", text, line, 1)
+            self.log.report(Severity.ERROR, "B21-NOG40", text, Spot(line))
         self.release_at_end()

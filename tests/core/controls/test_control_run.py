@@ -4,21 +4,20 @@ from __future__ import annotations
 
 import pytest
 
-from core.controls.control_run import MAX_ALIKE, MAX_FINDINGS_OF_A_RULE, AlarmError, Log
-from core.finding import Severity
+from core.controls.control_run import MAX_ALIKE, MAX_FINDINGS_OF_A_RULE, AlarmError, Log, Spot
 
 
 def test_a_rule_is_reported_once_for_a_line() -> None:
     log = Log()
     for line in (4, 4, 3):
-        log.report(Severity.WARNING, "A", "Text.", line, 1)
+        log.warn("A", "Text.", Spot(line))
     assert [finding.line for finding in log.all_findings()] == [3, 4]
 
 
 def test_a_rule_that_is_broken_everywhere_is_counted() -> None:
     log = Log()
     for line in range(1, MAX_FINDINGS_OF_A_RULE + 51):
-        log.report(Severity.WARNING, "A", "Text.", line, 1)
+        log.warn("A", "Text.", Spot(line))
     findings = log.all_findings()
     assert len(findings) == MAX_FINDINGS_OF_A_RULE + 1
     assert "50 more" in findings[-1].text
@@ -27,9 +26,9 @@ def test_a_rule_that_is_broken_everywhere_is_counted() -> None:
 def test_information_that_repeats_itself_buries_nothing_else() -> None:
     log = Log()
     for line in range(1, 51):
-        log.report(Severity.INFO, "A", "Skipped.", line, 1)
-    log.report(Severity.INFO, "A", "Another text.", 60, 1)
-    log.report(Severity.WARNING, "A", "A warning.", 61, 1)
+        log.inform("A", "Skipped.", Spot(line))
+    log.inform("A", "Another text.", Spot(60))
+    log.warn("A", "A warning.", Spot(61))
     findings = log.all_findings()
     assert [finding.line for finding in findings] == [*range(1, MAX_ALIKE + 2), 60, 61]
     assert findings[MAX_ALIKE].text == f"A: {50 - MAX_ALIKE} more lines like these."
@@ -38,8 +37,8 @@ def test_information_that_repeats_itself_buries_nothing_else() -> None:
 def test_of_information_whose_text_varies_no_more_is_kept_than_of_warnings() -> None:
     log = Log()
     for line in range(1, MAX_FINDINGS_OF_A_RULE + 51):
-        log.report(Severity.INFO, "A", f"Note {line}.", line, 1)
-    log.report(Severity.WARNING, "A", "A warning.", 999, 1)
+        log.inform("A", f"Note {line}.", Spot(line))
+    log.warn("A", "A warning.", Spot(999))
     findings = log.all_findings()
     assert len(findings) == MAX_FINDINGS_OF_A_RULE + 2
     assert "50 more" in findings[-2].text
@@ -49,8 +48,8 @@ def test_of_information_whose_text_varies_no_more_is_kept_than_of_warnings() -> 
 
 def test_an_alarm_stops_at_its_own_line_or_another() -> None:
     with pytest.raises(AlarmError) as caught:
-        Log().stop("A", "Text.", 3, 1)
+        Log().stop("A", "Text.", Spot(3))
     assert caught.value.line == 3
     with pytest.raises(AlarmError) as caught:
-        Log().stop("A", "Text.", 3, 1, stops_at=9)
+        Log().stop("A", "Text.", Spot(3), stops_at=9)
     assert (caught.value.line, caught.value.finding.line) == (9, 3)

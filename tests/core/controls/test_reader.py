@@ -61,7 +61,7 @@ def test_comments_may_be_anywhere() -> None:
 
 def test_columns_count_from_1_and_include_comments() -> None:
     read = block("(X9) G1 X2")
-    assert (read.column("X"), read.column("G", 10), read.column("Z")) == (9, 6, 1)
+    assert (read.at("X").column, read.at("G", 10).column, read.at("Z").column) == (9, 6, 1)
 
 
 @pytest.mark.parametrize(
@@ -98,7 +98,7 @@ def test_tool_data_follow_slashes() -> None:
 def test_a_semicolon_may_end_a_block() -> None:
     blocks = read_line("G1X1;X2;Y3.", 1, Log(), Syntax(semicolon_ends=True, tool_data=True))
     assert [read_block.words for read_block in blocks] == [{"X": 1.0}, {"X": 2.0}, {"Y": 3.0}]
-    assert [read_block.column("XY") for read_block in blocks] == [3, 6, 9]
+    assert [read_block.at("XY").column for read_block in blocks] == [3, 6, 9]
 
 
 def test_a_semicolon_in_a_comment_ends_no_block() -> None:

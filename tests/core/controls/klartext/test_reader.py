@@ -14,7 +14,7 @@ def only(line: str) -> Block:
 
 def test_block_numbers_and_blanks_stand_before_the_head() -> None:
     assert only("  12 L X+1 ; go") == Block(1, "L", " X+1", 7, skip=False)
-    assert only("L X+1").column == 2
+    assert only("L X+1").begin == 2
     assert only("/ 7 L X+1") == Block(1, "L", " X+1", 6, skip=True)
 
 
@@ -58,9 +58,9 @@ def test_words() -> None:
 
 def test_places_of_words() -> None:
     block = only("12 L X+1 RL M3")
-    assert block.column_of("RL") == 10
-    assert block.column_of("M3") == 13
-    assert block.column_of("Y") == 4
+    assert block.at("RL").column == 10
+    assert block.at("M3").column == 13
+    assert block.at("Y").column == 4
 
 
 @pytest.mark.parametrize(
