@@ -7,7 +7,7 @@ scaling and mirror image.  After a move to a machine position an axis is at an u
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass, field, replace
+from dataclasses import replace
 from math import atan2, cos, hypot, radians, sin, tan
 from typing import Final, NoReturn
 
@@ -21,7 +21,8 @@ from core.controls.iso.machine import Control, Machine
 from core.controls.iso.macro_b import VACANT
 from core.controls.iso.modal_state import EXTERNAL_OFFSET, ORIGIN, TAKEN_AS_ZERO
 from core.controls.iso.reader import Block, whole, whole_word
-from core.controls.moves import Plane, Point3, flat, solid
+from core.controls.moves import Point3, flat, solid
+from core.controls.transform import UNSCALED, Transform
 from core.units import Unit, from_mm, to_mm
 
 _LENGTH_OFFSET_L: Final = 10
@@ -38,9 +39,6 @@ HAAS_SYSTEMS: Final = tuple(range(1100, 1300, 10))
 
 LEAST_FACTOR: Final = 0.01
 """A smaller factor of G51 is one that was meant to have a decimal point."""
-
-UNSCALED: Final = (1.0, 1.0, 1.0)
-"""The factors of the axes without G51."""
 
 FIRST_BUILDER_CODE: Final = 1000
 """G codes from G100 on that the control does not have may call macros."""
@@ -89,65 +87,6 @@ _LAST_WORDS: Final[Mapping[int, str]] = {
     4119: "S",
     4120: "T",
 }
-
-
-@dataclass(frozen=True, slots=True)
-class Transform:
-    """Converts programmed points to work coordinates: rotation, then scaling, then the mirror image.
-
-    So the center of a rotation is scaled and mirrored too, and one mirrored axis reverses its direction.  `mirror` has
-    the mirror's coordinate by axis; `factors` of one size scale about `fixed`, and mirror there if they are negative;
-    `angle` rotates about `center` in `plane`, radians.
-    """
-
-    mirror: Mapping[int, float] = field(default_factory=dict)
-    factors: Point3 = UNSCALED
-    fixed: Point3 = ORIGIN
-    angle: float = 0.0
-    center: tuple[float, float] = (0.0, 0.0)
-    plane: Plane = Plane.XY
-
-    def __bool__(self) -> bool:
-        return bool(self.mirror) or self.factors != UNSCALED or self.angle != 0.0
-
-    def applied(self, point: Point3) -> Point3:
-        """Return a programmed point in work coordinates."""
-        turned = self._turned(point, self.angle)
-        scaled = [
-            fixed + (value - fixed) * factor
-            for value, fixed, factor in zip(turned, self.fixed, self.factors, strict=True)
-        ]
-        return self._mirrored(scaled)
-
-    def undone(self, point: Point3) -> Point3:
-        """Return the programmed point of a point in work coordinates: the inverse of `applied`."""
-        mirrored = self._mirrored(point)
-        x, y, z = (
-            fixed + (value - fixed) / factor
-            for value, fixed, factor in zip(mirrored, self.fixed, self.factors, strict=True)
-        )
-        return self._turned((x, y, z), -self.angle)
-
-    def _mirrored(self, point: Sequence[float]) -> Point3:
-        x, y, z = (2 * self.mirror[axis] - value if axis in self.mirror else value for axis, value in enumerate(point))
-        return x, y, z
-
-    def _turned(self, point: Point3, angle: float) -> Point3:
-        if not angle:
-            return point
-        first, second, third = flat(point, self.plane)
-        dx, dy = first - self.center[0], second - self.center[1]
-        turned = (dx * cos(angle) - dy * sin(angle), dx * sin(angle) + dy * cos(angle))
-        return solid(self.center[0] + turned[0], self.center[1] + turned[1], third, self.plane)
-
-    def vector(self, vector: Point3) -> Point3:
-        """Return a programmed vector in work coordinates."""
-        (ax, ay, az), (bx, by, bz) = self.applied(ORIGIN), self.applied(vector)
-        return bx - ax, by - ay, bz - az
-
-    def flips(self, plane: Plane) -> bool:
-        """True if clockwise becomes counterclockwise in a plane."""
-        return sum((axis in self.mirror) != (self.factors[axis] < 0.0) for axis in plane.axes[:2]) == 1
 
 
 class MacroMachine(Machine):
@@ -472,7 +411,7 @@ class MacroMachine(Machine):
             self.log.warn("FN-ROTATION", text, place)
         first, second, _ = self.plane.axes
         center = self._absolute(first, words), self._absolute(second, words)
-        self.transform = replace(self.transform, angle=radians(words["R"]), center=center, plane=self.plane)
+        self.transform = replace(self.transform, angle=words["R"], center=center, plane=self.plane)
 
     def _warn_of_axes(self, block: Block) -> None:
         """Warn of axes that are not followed, when a new one appears."""

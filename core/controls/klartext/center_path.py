@@ -20,6 +20,7 @@ from core.controls.klartext import lead_curves
 from core.controls.klartext.lead_curves import Lead, LeadShape
 from core.controls.klartext.m120 import PathAhead, Unreached, path_ahead
 from core.controls.moves import Plane, Point3, Tape, flat, solid
+from core.controls.transform import Transform
 from core.geometry.path import Path
 from core.geometry.piece import Arc, Point, Side
 from core.tolerance import JOINED
@@ -89,6 +90,22 @@ class ProgrammedStep(NamedTuple):
     before: tuple[bool, float] = (False, 0.0)
     ahead: int = 0
     lost: bool = False
+
+    def placed(self, transform: Transform) -> ProgrammedStep:
+        """Return the step as the control runs it, which is placed before the tool radius is added.
+
+        A mirror image of one axis makes RL run on the right and turns arcs around.
+        """
+        if not transform:
+            return self
+        element, plane, flip = self.element, self.plane, -1 if transform.flips(self.plane) else 1
+        points = (solid(*point, 0.0, plane) for point in (element.start, element.end, element.center))
+        vectors = (solid(*vector, 0.0, plane) for vector in (element.start_direction, element.end_direction))
+        start, end, center = (flat(transform.applied(point), plane)[:2] for point in points)
+        first, last = (flat(transform.vector(vector), plane)[:2] for vector in vectors)
+        element = element._replace(start=start, end=end, center=center, start_direction=first, end_direction=last)
+        element = element._replace(turn=flip * element.turn)
+        return self._replace(element=element, offset=flip * self.offset, hand=flip * self.hand)
 
     @property
     def arc_feed(self) -> float:

@@ -15,7 +15,7 @@ from core.controls.klartext.path_functions import straight_element
 from core.controls.klartext.reader import Block
 from core.controls.klartext.setup_blocks import shift
 from core.controls.klartext.state import AXIS_WORDS, COMMON_WORDS, State
-from core.controls.klartext.transform import Transform
+from core.controls.transform import Transform
 from core.finding import Severity
 from core.units import to_mm
 
@@ -87,28 +87,32 @@ def cycle(state: State, block: Block) -> None:
 
 
 def _transform(state: State, block: Block, number: int) -> None:
-    """CYCL DEF 8.1 X Y mirrors axes, CYCL DEF 10.1 ROT or IROT turns the plane; without axes or at 0 that ends."""
+    """CYCL DEF 8.1 X Y mirrors axes, CYCL DEF 10.1 ROT or IROT turns the plane; without axes or at 0 that ends.
+
+    Both are about the datum, and ROT counts from the working plane's first axis.  Sources: HEIDENHAIN TNC 426/430
+    user's manual, coordinate transformation cycles and example 10.11 (datum shift, then rotation about it); TNC 310
+    Pilot p. 8 (reference axis of ROT); TNC 320 user's manual p. 108 (cycles 7, 8 and 10 in the working plane).
+    """
     if state.applied or state.side:
         text = f"Cycle {number} under compensation is not supported. Cancel it in an L block with R0 before."
         state.log.stop("CYCLE", text, block)
-    before, datum = state.transform, state.flat(state.shift)[0]
-    mirrored, angle = before.mirrored, before.angle
+    before, datum = state.transform, state.shift
+    axes, angle = set(before.mirror), before.angle
     if number == 8:
-        names = _MIRRORED_AXES.findall(block.body)
-        axes = {"XYZ".index(name) for name in names}
-        if _MIRRORED_AXES.sub("", block.body).strip() or state.plane.axes[2] in axes:
-            state.log.stop("BEYOND", "cutcomp follows cycle 8 with axes of the working plane only, as in X Y.", block)
-        mirrored = state.plane.axes[0] in axes, state.plane.axes[1] in axes
+        axes = {"XYZ".index(name) for name in _MIRRORED_AXES.findall(block.body)}
     else:
         words = _ROTATION.fullmatch(block.body)
         if words is None:
             state.log.stop("WORD", "Cycle 10 needs ROT and an angle. Write ROT+30.", block)
         angle = state.value(words[2], block) + (angle if words[1] else 0.0)
-    if any(mirrored) and angle:
+    if state.plane.axes[2] in axes or (number == 8 and _MIRRORED_AXES.sub("", block.body).strip()):
+        state.log.stop("BEYOND", "cutcomp follows cycle 8 with axes of the working plane only, as in X Y.", block)
+    if axes and angle:
         text = "cutcomp does not follow a mirror image and a rotation together. Write out the moves."
         state.log.stop("BEYOND", text, block)
-    transform = Transform(state.plane, datum, mirrored, angle)
-    if before.neutral and transform.neutral:
+    mirror, center = {axis: datum[axis] for axis in axes}, state.flat(datum)[0]
+    transform = Transform(mirror, angle=angle, center=center, plane=state.plane)
+    if not before and not transform:
         state.log.inform("IGNORED", f"Cycle {number} is skipped: these values turn, mirror and scale nothing.", block)
     state.transformed(transform)
 

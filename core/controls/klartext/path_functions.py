@@ -13,8 +13,8 @@ from core.controls.klartext.corner_rounding import NO_LEAD, PendingCorner
 from core.controls.klartext.m_functions import functions, leaves_workpiece
 from core.controls.klartext.reader import Block
 from core.controls.klartext.state import AXIS_WORDS, COMMON_WORDS, SIDE_WORDS, State, Words
-from core.controls.klartext.transform import rotated
 from core.controls.moves import Plane, solid, without_rounding
+from core.controls.transform import rotated
 from core.geometry.piece import Point
 from core.tolerance import JOINED
 
@@ -306,7 +306,7 @@ def _arc_to(
     if plane is not state.plane and state.applied:
         text = "An arc outside the working plane is not compensated. Cancel compensation in an L block with R0 before."
         state.log.stop("HE2", text, block)
-    if plane is not state.plane and not state.transform.neutral:
+    if plane is not state.plane and state.transform:
         text = "cutcomp mirrors and turns only arcs in the working plane. Write out the moves."
         state.log.stop("BEYOND", text, block)
     state.moving(block, rapid=rapid, feed=feed)

@@ -206,7 +206,7 @@ def shift(state: State, block: Block) -> None:
             value = state.length(block, words, name)
             state.shift[axis] = state.shift[axis] + value if name[0] == "I" else value
     state.pole = None
-    state.datum_moved = not state.transform.neutral
+    state.datum_moved = bool(state.transform)
 
 
 def transformation(state: State, block: Block) -> None:
@@ -218,4 +218,4 @@ def transformation(state: State, block: Block) -> None:
         shift(state, block.after(head.end()))
     else:
         state.shift, state.pole = [0.0, 0.0, 0.0], None
-        state.datum_moved = not state.transform.neutral
+        state.datum_moved = bool(state.transform)

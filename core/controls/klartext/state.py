@@ -17,9 +17,9 @@ from core.controls.klartext.center_path import FeedAt, ProgrammedStep, Role
 from core.controls.klartext.corner_rounding import CornerBuffer
 from core.controls.klartext.formulas import evaluate
 from core.controls.klartext.reader import WORD, Block, joined_name
-from core.controls.klartext.transform import Transform
 from core.controls.moves import Plane
 from core.controls.program_text import quoted
+from core.controls.transform import Transform
 from core.geometry.piece import Point
 from core.tolerance import LARGEST_COORDINATE
 from core.units import Unit, to_mm
@@ -240,7 +240,7 @@ class State:
     def push(self, step: ProgrammedStep) -> None:
         """Hand the next step on, to the center path."""
         ahead = self.ahead if step.role is Role.CONTOUR else 0
-        self.waiting.push(self.transform.placed_step(step)._replace(ahead=ahead, lost=self.lost))
+        self.waiting.push(step.placed(self.transform)._replace(ahead=ahead, lost=self.lost))
 
     def transformed(self, transform: Transform) -> None:
         """Mirror and turn what is programmed from here on; the tool stays where it is."""
@@ -248,14 +248,14 @@ class State:
         if not self.known.issuperset(axes):
             self.known.difference_update(axes)
         self.waiting.flush()
-        place = self.transform.placed(self.flat(self.position)[0])
-        self.position[axes[0]], self.position[axes[1]] = transform.undone(place)
+        x, y, z = self.position
+        self.position = list(transform.undone(self.transform.applied((x, y, z))))
         self.transform, self.datum_moved, self.last, self.pole = transform, False, None, None
 
     def moving(self, block: Block, *, rapid: bool, feed: float) -> None:
         """Note that a block moves, and warn if its feed or its start is unknown."""
         self.before = (rapid, feed)
-        if self.datum_moved or not (self.transform.neutral or self.transform.plane is self.plane):
+        if self.datum_moved or (self.transform and self.transform.plane is not self.plane):
             text = "cutcomp follows a mirror image or rotation only about a datum set before, in one working plane."
             self.log.stop("BEYOND", text, block)
         if rapid:

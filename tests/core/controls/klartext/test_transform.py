@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from core.geometry.piece import Side
-from tests.core.controls.klartext.klartext_runs import clean, flat
+from tests.core.controls.klartext.klartext_runs import clean, flat, runs
 
 NEAR = pytest.approx
 PART = (
@@ -83,3 +83,10 @@ def test_a_datum_may_move_before_the_rotation_about_it_ends() -> None:
 def test_incremental_rotations_add_up() -> None:
     made = clean("CYCL DEF 10.1 IROT+30", "CYCL DEF 10.1 IROT+60", "L X+10 Y+0 FMAX")
     assert flat(made, 1) == [NEAR((0, 10))]
+
+
+def test_a_mirror_image_of_what_has_become_the_tool_axis_stops_the_run() -> None:
+    """Taken over by its place in the plane, the mirror image of X would have become one of Y."""
+    made = runs("CYCL DEF 8.1 X", "TOOL CALL 1 X S1000", "CYCL DEF 10.1 ROT+0", "L Y+10 Z+0 FMAX")
+    assert [(finding.code, finding.line) for finding in made.findings][-1] == ("BEYOND", 6)
+    assert made.stopped_at == 6
