@@ -16,23 +16,9 @@ from typing import Final, NamedTuple, NoReturn
 from core.controls.control_run import NOT_RUN_TEXT, Log, Spot
 from core.controls.iso.code_support import CONTROLS_WITH_JUMPS, only_on
 from core.controls.iso.dialect import Dialect
-from core.controls.iso.expressions import (
-    CompactText,
-    ExpressionReader,
-    FaultError,
-    MacroParameters,
-    report_unset,
-)
+from core.controls.iso.expressions import CompactText, ExpressionReader, FaultError, MacroParameters, report_unset
 from core.controls.iso.machine import Control, Machine
-from core.controls.iso.reader import (
-    Block,
-    check_length,
-    has_words,
-    read_line,
-    whole,
-    whole_word,
-    without_comments,
-)
+from core.controls.iso.reader import Block, check_length, has_words, read_line, whole, whole_word, without_comments
 from core.controls.program_text import lines_of, quoted
 
 SIGNS_PER_BLOCK: Final = 64

@@ -66,6 +66,9 @@ _STOP_CODES: Final = frozenset((0, 10, 600))
 _ARC_CENTER_LETTERS: Final = frozenset("IJKR")
 
 
+LEFT_OPEN: Final = "The program ends under compensation. Write G40 and a move away from the part."
+
+
 class Control(Recorder):
     """What a control adds to its machine: compensation, and its own rules for blocks."""
 
@@ -96,6 +99,14 @@ class Control(Recorder):
         """True if a G code does anything under compensation, asked in its turn; one that is refused stops the run."""
         return True
 
+    def note_programmed_radius(self, radius: float, flips: str, block: Block) -> None:
+        """Report the radius of a block with G41 or G42 if it is 0, negative, or not that of the tool in the spindle."""
+        if radius == 0.0:
+            self.machine.nothing_compensated("The radius is 0.", block.at_side())
+        self.note_radius(radius, "NEGATIVE", flips, block.at_side())
+        if "D" in block.words:
+            self.machine.compare_offset(radius, f"D{block.words['D']:g}", block.at("D"))
+
     def program_stop(self) -> None:
         """Handle M0, M1 or M60 after the block's motion."""
 
@@ -105,8 +116,7 @@ class Control(Recorder):
     def end(self, line: int) -> None:
         """Handle the end of the program at this line, and warn if it is still under compensation."""
         if self.active and self.machine.side_on:
-            text = "The program ends under compensation. Write G40 and a move away from the part."
-            self.log.warn("OPEN", text, Spot(line))
+            self.log.warn("OPEN", LEFT_OPEN, Spot(line))
         self.end_of_program()
 
 

@@ -17,14 +17,7 @@ from core.controls.control_run import NOT_RUN_TEXT, Log, Place, Spot
 from core.controls.iso.dialect import Dialect
 from core.controls.iso.expressions import COMMENT_GAP, CompactText, FaultError, plain
 from core.controls.iso.flow import Call, Flow, ProgramLibrary, o_words_of
-from core.controls.iso.macro_b import (
-    INCREMENTS,
-    AlarmByProgramError,
-    MacroReader,
-    Variables,
-    set_variables,
-    words_of,
-)
+from core.controls.iso.macro_b import INCREMENTS, AlarmByProgramError, MacroReader, Variables, set_variables, words_of
 from core.controls.iso.macro_b_machine import MacroMachine
 from core.controls.iso.reader import (
     Block,

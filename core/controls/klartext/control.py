@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import re
 from collections.abc import Callable, Mapping, Sequence
+from functools import partial
 from math import isclose
 from typing import Final
 
@@ -204,7 +205,7 @@ def _condition(state: State, block: Block) -> None:
 
 BLOCK_FUNCTIONS: Final[Mapping[str, Callable[[State, Block], None]]] = {
     "L": path_functions.line,
-    "LP": path_functions.polar_line,
+    "LP": path_functions.line,
     "CC": path_functions.pole,
     "RND": path_functions.corner,
     "CHF": path_functions.corner,
@@ -212,12 +213,12 @@ BLOCK_FUNCTIONS: Final[Mapping[str, Callable[[State, Block], None]]] = {
     "CR": path_functions.radius_arc,
     "CT": path_functions.tangent_arc,
     "CP": path_functions.polar_circle,
-    "CTP": path_functions.polar_tangent,
+    "CTP": path_functions.tangent_arc,
     "APPR": leads.approach,
     "DEP": leads.depart,
     "BEGIN": setup_blocks.begin,
     "END": setup_blocks.end,
-    "BLK": setup_blocks.ignored,
+    "BLK": partial(setup_blocks.skip, text="BLK FORM moves nothing and is skipped."),
     "TOOL": setup_blocks.tool,
     "CYCL": cycles.cycle,
     "TRANS": setup_blocks.transformation,
@@ -225,8 +226,8 @@ BLOCK_FUNCTIONS: Final[Mapping[str, Callable[[State, Block], None]]] = {
     "*": setup_blocks.structure,
     "(": setup_blocks.bracketed,
     "FUNCTION": setup_blocks.function,
-    "DECLARE": setup_blocks.text_parameter,
-    "QS": setup_blocks.text_parameter,
+    "DECLARE": partial(setup_blocks.skip, text="Text parameters move nothing and are skipped."),
+    "QS": partial(setup_blocks.skip, text="Text parameters move nothing and are skipped."),
     "STOP": m_functions.only_functions,
     "M": m_functions.only_functions,
     "LBL": _label,

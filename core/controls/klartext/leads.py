@@ -10,7 +10,7 @@ from core.controls.compensation.elements import Element, offset_point
 from core.controls.klartext.center_path import ProgrammedStep, Role
 from core.controls.klartext.lead_curves import Lead, LeadShape, departure
 from core.controls.klartext.m_functions import functions
-from core.controls.klartext.path_functions import POLAR_WORDS, check_pole_plane, polar_target, straight_element
+from core.controls.klartext.path_functions import POLAR_WORDS, check_pole_plane, end_point, straight_element
 from core.controls.klartext.reader import Block
 from core.controls.klartext.state import AXIS_WORDS, COMMON_WORDS, State, Words
 from core.controls.moves import solid
@@ -27,7 +27,7 @@ _NEEDED_WORDS: Final = {
 def approach(state: State, block: Block) -> None:
     """APPR LT, LN, CT, LCT and their polar forms: pass on the lead to the contour's first point."""
     shape, polar, words = _read(state, block, "APPR")
-    end = polar_target(state, block, words)[0] if polar else state.target(block, words)
+    end = end_point(state, block, words, polar=polar)
     state.chosen_side(block, words)
     _check_side(state, block, shape)
     lead = _lead(state, block, shape, words)
@@ -104,7 +104,7 @@ def _goal(
     state: State, block: Block, words: Words, shape: LeadShape, last: Element, lead: Lead, *, polar: bool
 ) -> list[float]:
     """Return where a departure ends: the programmed point for LCT, else the end of the lead itself."""
-    end = polar_target(state, block, words)[0] if polar else state.target(block, words)
+    end = end_point(state, block, words, polar=polar)
     point, height = state.flat(end)
     if shape is LeadShape.LCT:
         return end

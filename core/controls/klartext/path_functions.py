@@ -36,22 +36,14 @@ _CORNER_WORDS: Final = frozenset(("R", "F", "LEN"))
 
 
 def line(state: State, block: Block) -> None:
-    """L: a straight line; a new RL, RR or R0 in it applies or cancels compensation."""
-    words = state.words(block, _LINE_WORDS)
-    if "FMAX" in words or "MB" in words:
+    """L and LP: a straight line; a new RL, RR or R0 in it applies or cancels compensation."""
+    polar = block.head == "LP"
+    words = state.words(block, _POLAR_LINE if polar else _LINE_WORDS)
+    if not polar and ("FMAX" in words or "MB" in words):
         state.chosen_side(block, words)
         if leaves_workpiece(state, block, words):
             return
-    _line_to(state, block, words, state.target(block, words))
-
-
-def polar_line(state: State, block: Block) -> None:
-    """LP: a straight line to a point given by distance and angle from the pole."""
-    words = state.words(block, _POLAR_LINE)
-    _line_to(state, block, words, polar_target(state, block, words)[0])
-
-
-def _line_to(state: State, block: Block, words: Words, end: list[float]) -> None:
+    end = end_point(state, block, words, polar=polar)
     state.chosen_side(block, words)
     rapid, feed = state.chosen_feed(block, words)
     corner_rules = functions(state, block, words)
@@ -143,6 +135,11 @@ def polar_target(state: State, block: Block, words: Words) -> tuple[list[float],
     return list(solid(*point, state.flat(target, plane)[1], plane)), angle
 
 
+def end_point(state: State, block: Block, words: Words, *, polar: bool) -> list[float]:
+    """Return the position that the polar words or the axis words of a block lead to."""
+    return polar_target(state, block, words)[0] if polar else state.target(block, words)
+
+
 def check_pole_plane(state: State, block: Block) -> None:
     """Stop the run unless the last CC lies in the working plane."""
     if state.pole_plane is not state.plane:
@@ -209,20 +206,12 @@ def _radius_plane(state: State, block: Block, words: Words) -> Plane:
 
 
 def tangent_arc(state: State, block: Block) -> None:
-    """CT: an arc tangent to the contour element before it."""
-    words = state.words(block, _LINE_WORDS)
-    _tangent_to(state, block, words, state.target(block, words))
-
-
-def polar_tangent(state: State, block: Block) -> None:
-    """CTP: an arc tangent to the contour element before it, to a polar point."""
-    words = state.words(block, _POLAR_LINE)
-    check_pole_plane(state, block)
-    _tangent_to(state, block, words, polar_target(state, block, words)[0])
-
-
-def _tangent_to(state: State, block: Block, words: Words, end: list[float]) -> None:
-    """Run an arc to a position, tangent to the element before it."""
+    """CT and CTP: an arc tangent to the contour element before it."""
+    polar = block.head == "CTP"
+    words = state.words(block, _POLAR_LINE if polar else _LINE_WORDS)
+    if polar:
+        check_pole_plane(state, block)
+    end = end_point(state, block, words, polar=polar)
     if state.last is None or state.waiting.pending:
         text = "A tangent arc needs a contour element directly before it. Write an L or C block first, or use CR."
         state.log.stop("HE6", text, block)

@@ -62,13 +62,9 @@ def end(state: State, block: Block) -> None:
     state.ended = True
 
 
-def ignored(state: State, block: Block) -> None:
-    """BLK FORM: skip it, as it moves nothing."""
-    _skip(state, block, "BLK FORM")
-
-
-def _skip(state: State, block: Block, name: str) -> None:
-    state.log.inform("IGNORED", f"{name} moves nothing and is skipped.", block)
+def skip(state: State, block: Block, text: str) -> None:
+    """Skip a block that moves nothing."""
+    state.log.inform("IGNORED", text, block)
 
 
 def bracketed(state: State, block: Block) -> None:
@@ -82,11 +78,6 @@ def structure(state: State, block: Block) -> None:
     """Skip a structuring line `* - text`."""
 
 
-def text_parameter(state: State, block: Block) -> None:
-    """DECLARE STRING and QS: skip texts, as they move nothing."""
-    state.log.inform("IGNORED", "Text parameters move nothing and are skipped.", block)
-
-
 def plane(state: State, block: Block) -> None:
     """Skip PLANE RESET STAY, and PLANE SPATIAL STAY with angles of 0, which tilt nothing; refuse any other PLANE."""
     angles = _SPATIAL.match(block.body)
@@ -94,14 +85,14 @@ def plane(state: State, block: Block) -> None:
         state.parameters |= dict.fromkeys(("Q120", "Q121", "Q122"), 0.0)
     elif block.body.split() != ["RESET", "STAY"]:
         unknown(state, block)
-    _skip(state, block, "PLANE without a tilt")
+    skip(state, block, "PLANE without a tilt moves nothing and is skipped.")
 
 
 def function(state: State, block: Block) -> None:
     """Skip FUNCTION RESET and FUNCTION MODE MILL, which are in force anyway; refuse any other FUNCTION."""
     if block.body.split()[:1] != ["RESET"] and block.body.split()[:2] != ["MODE", "MILL"]:
         unknown(state, block)
-    _skip(state, block, f"FUNCTION {' '.join(block.body.split())}")
+    skip(state, block, f"FUNCTION {' '.join(block.body.split())} moves nothing and is skipped.")
 
 
 def unknown(state: State, block: Block) -> NoReturn:

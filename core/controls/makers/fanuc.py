@@ -17,7 +17,7 @@ from core.controls.iso.arcs import IN_PLANE
 from core.controls.iso.dialect import CYCLES_APART, PLANE_OF_CODE, USUAL_CODES, CodeAction, Dialect, codes
 from core.controls.iso.expressions import ParameterStore
 from core.controls.iso.flow import MakeControl
-from core.controls.iso.machine import NON_MODAL_ACTIONS, Control
+from core.controls.iso.machine import LEFT_OPEN, NON_MODAL_ACTIONS, Control
 from core.controls.iso.macro_b_machine import HAAS_SYSTEMS, MacroMachine
 from core.controls.iso.reader import COMPENSATION_CODES, Block, Syntax, whole_word
 from core.controls.makers.fanuc_vectors import Alarms, VectorQueue, VectorRules, vector_meeting
@@ -391,7 +391,7 @@ class Fanuc(VectorQueue, Control):
 
     def left_open(self, place: Place) -> None:
         """Report a program that ends under compensation."""
-        self.log.warn("FN-OPEN", "The program ends under compensation. Write G40 and a move away from the part.", place)
+        self.log.warn("FN-OPEN", LEFT_OPEN, place)
 
 
 VECTOR_RULES: Final[Mapping[str, VectorRules]] = {

@@ -15,6 +15,7 @@ from core.controls.compensation.corner_rules import Outside
 from core.controls.control_run import Place
 from core.controls.iso.dialect import CodeAction, Dialect, codes
 from core.controls.iso.flow import MakeControl
+from core.controls.iso.machine import LEFT_OPEN
 from core.controls.iso.macro_b_machine import HAAS_SYSTEMS
 from core.controls.iso.reader import Block
 from core.controls.makers import fanuc
@@ -81,7 +82,7 @@ class Haas(fanuc.Fanuc):
 
     def left_open(self, place: Place) -> None:
         """Stop the run: the program ends under compensation."""
-        self.log.stop("H349", "The program ends under compensation. Write G40 and a move away from the part.", place)
+        self.log.stop("H349", LEFT_OPEN, place)
 
 
 VARIANTS: Final[Mapping[str, MakeControl]] = {

@@ -13,7 +13,7 @@ from typing import Final
 
 from core.controls.compensation.element_queue import OneMoveQueue
 from core.controls.control_run import Log
-from core.controls.control_tools import ToolTable, missing_tool
+from core.controls.control_tools import missing_tool
 from core.controls.iso.arcs import ArcTolerance
 from core.controls.iso.code_support import D_AND_H_ANYWHERE
 from core.controls.iso.dialect import PLANE_OF_CODE, USUAL_CODES, CodeAction, Dialect, codes
@@ -79,12 +79,6 @@ REFUSED_M: Final = {
 """M codes that are refused while compensation is on, also in the block of G40, because they run before it."""
 
 
-def _lacks(tools: ToolTable, value: float) -> bool:
-    """True if the table lacks the tool of an H word; 0 means no tool."""
-    number = whole(value)
-    return number is None or (number != 0 and tools.get(number) is None)
-
-
 class LinuxCnc(OneMoveQueue, Control):
     """What turns LinuxCNC's compensation on, and what it refuses while on; `diameters`: G7 is in force."""
 
@@ -141,10 +135,8 @@ class LinuxCnc(OneMoveQueue, Control):
             place = block.at("M", code)
             if self.active and code in REFUSED_M:
                 rule, what = REFUSED_M[code]
-                text = (
-                    f"M{code / 10:g} {what}, which is not allowed under compensation; write G40 in a block before it."
-                )
-                self.log.stop(rule, text, place)
+                what = f"M{code / 10:g} {what}, which is not allowed under compensation"
+                self.log.stop(rule, f"{what}; write G40 in a block before it.", place)
             if code == _SET_TOOL_CODE:
                 self._set_tool(block)
             if code in _RESTORE_CODES:
@@ -172,8 +164,9 @@ class LinuxCnc(OneMoveQueue, Control):
                 self.log.stop("N-WORDALONE", text, block.at(letter))
         if 40 in block.g and block.words.get("P", -1.0) < 0.0:
             self.log.stop("N-WORDALONE", "G4 needs P and the seconds to wait.", block.at("G", 40))
-        if "H" in block.words and _lacks(self.machine.tools, block.words["H"]):
-            number = whole(block.words["H"])
+        # H0 means no tool
+        number = whole(block.words.get("H", 0.0))
+        if number is None or (number and self.machine.tools.get(number) is None):
             self.log.stop("TOOL", missing_tool(number), block.at("H"), tool=number)
 
     def _alone(self, block: Block) -> None:
@@ -210,8 +203,8 @@ class LinuxCnc(OneMoveQueue, Control):
     def _arc_words(self, block: Block) -> None:
         """Stop the run at I, J, K or R in a straight move, unless G10, G64 or M19 uses them."""
         if self._motion(block) in (0, 10) and not {100, 640}.intersection(block.g) and _ORIENT_CODE not in block.m:
-            place = block.at("IJKR")
-            self.log.stop("N-WORDALONE", "I, J, K and R go with G2 and G3 only. Remove them.", place)
+            text = "I, J, K and R go with G2 and G3 only. Remove them."
+            self.log.stop("N-WORDALONE", text, block.at("IJKR"))
 
     def takes_effect(self, code: int, block: Block) -> bool:
         """Stop the run at what compensation refuses; return False for G92.1 to G92.3, which then do nothing."""
@@ -248,12 +241,7 @@ class LinuxCnc(OneMoveQueue, Control):
             text = "Compensation is on already; write G40 before it is turned on again."
             self.log.stop("N-ONWHENON", text, block.at_side())
         radius, orientation = self.radius(block)
-        text = "The diameter is negative: the tool runs on the other side."
-        self.note_radius(radius, "NEGATIVE", text, block.at_side())
-        if radius == 0.0:
-            self.machine.nothing_compensated("The radius is 0.", block.at_side())
-        if "D" in block.words:
-            self.machine.compare_offset(radius, f"D{block.words['D']:g}", block.at("D"))
+        self.note_programmed_radius(radius, "The diameter is negative: the tool runs on the other side.", block)
         self.turn_on(radius * side.sign, orientation)
 
     def compensation_off(self, block: Block) -> None:

@@ -23,7 +23,7 @@ from core.controls.iso.expressions import ParameterStore
 from core.controls.iso.machine import Control
 from core.controls.iso.reader import COMPENSATION_CODES, Block, whole_word
 from core.controls.moves import Plane
-from core.geometry.piece import Point, Side
+from core.geometry.piece import Side
 from core.units import Unit
 
 DIALECT: Final = Dialect(
@@ -59,12 +59,8 @@ class RosettaCnc(Control):
             self.log.stop("C2", "Compensation is on already; write G40 before it is turned on again.", place)
         by_diameter = not {411, 421}.isdisjoint(block.g)
         radius = self._diameter(block) / 2 if by_diameter else self._table_radius(block)
-        if radius == 0.0:
-            self.machine.nothing_compensated("The radius is 0.", place)
         text = "The radius is negative and changes the side. cutcomp assumes this; the manual does not say."
-        self.note_radius(radius, "NEGATIVE", text, place)
-        if "D" in block.words:
-            self.machine.compare_offset(radius, f"D{block.words['D']:g}", block.at("D"))
+        self.note_programmed_radius(radius, text, block)
         return radius * side.sign
 
     def _diameter(self, block: Block) -> float:
@@ -73,17 +69,13 @@ class RosettaCnc(Control):
             self.log.stop("C3", text, block.at_side())
         if "D" not in block.words:
             self.log.stop("C1", "G41.1 and G42.1 need D and the cutter's diameter.", block.at_side())
-        self._orientation(block)
+        if "L" in block.words:
+            text = "L, the orientation of a lathe tool, is 0 to 9."
+            orientation = whole_word(block, "L", self.log, "C4", text, 0, 9)
+            if self.plane is not Plane.ZX:
+                self.log.stop("C5", "L goes with the plane G18 only. Remove it.", block.at("L"))
+            self._nose(orientation, block.at("L"))
         return block.words["D"] * self.machine.scale
-
-    def _orientation(self, block: Block) -> None:
-        if "L" not in block.words:
-            return
-        place, text = block.at("L"), "L, the orientation of a lathe tool, is 0 to 9."
-        number = whole_word(block, "L", self.log, "C4", text, 0, 9)
-        if self.plane is not Plane.ZX:
-            self.log.stop("C5", "L goes with the plane G18 only. Remove it.", place)
-        self._nose(number, place)
 
     def _nose(self, orientation: int, place: Place) -> None:
         if orientation not in (0, 9):
@@ -91,20 +83,18 @@ class RosettaCnc(Control):
             self.log.warn("ORIENTATION", text, place)
 
     def _table_radius(self, block: Block) -> float:
-        machine, log = self.machine, self.log
-        number = machine.tool
+        machine, place, number = self.machine, block.at_side(), self.machine.tool
         if "D" in block.words:
-            number = whole_word(block, "D", log, "C1", "D is a tool number, 1 or more; a diameter goes with G41.1.", 1)
-        tool = machine.tools.get(number)
-        if tool is None and number:
-            place = block.at("D") if "D" in block.words else block.at_side()
-            log.stop("C1", missing_tool(number), place, tool=number)
-        if tool is None and "I" not in block.words:
-            text = "No tool is loaded and there is no D, so the radius is 0."
-            machine.nothing_compensated(text, block.at_side())
+            text = "D is a tool number, 1 or more; a diameter goes with G41.1."
+            place, number = block.at("D"), whole_word(block, "D", self.log, "C1", text, 1)
+        tool, radius = machine.tools.get(number), 0.0
         if tool is not None:
             self._nose(tool.orientation, block.at_side())
-        radius = tool.diameter_mm(machine.unit) / 2 if tool else 0.0
+            radius = tool.diameter_mm(machine.unit) / 2
+        elif number:
+            self.log.stop("C1", missing_tool(number), place, tool=number)
+        elif "I" not in block.words:
+            machine.nothing_compensated("No tool is loaded and there is no D, so the radius is 0.", place)
         return radius - block.words.pop("I", 0.0) * machine.scale
 
     def before_block(self, block: Block) -> None:
@@ -138,14 +128,13 @@ class NormalEntry(OneMoveQueue, RosettaCnc):
 
 
 class NistEntry(ElementQueue, RosettaCnc):
-    """The entry `nist`, without look-ahead; `before` is the element that ran last, `first`: none has run yet."""
+    """The entry `nist`, without look-ahead; `before` is the element that ran last, None before the first one."""
 
     rules = CORNER_RULES
 
     def __init__(self, log: Log) -> None:
         super().__init__(log)
         self.before: Element | None = None
-        self.first = True
 
     def before_block(self, block: Block) -> None:
         """Stop the run at what is refused, which includes a change of unit."""
@@ -157,11 +146,11 @@ class NistEntry(ElementQueue, RosettaCnc):
     def compensation_on(self, side: Side, block: Block) -> None:
         """G41, G42, G41.1 and G42.1: turn compensation on."""
         self.offset = self.asked_offset(side, block)
-        self.active, self.first, self.before = True, True, None
+        self.active, self.before = True, None
 
     def compensation_off(self, _: Block) -> None:
         """G40: make no move; the next one starts where the tool is."""
-        if self.active and self.offset and not self.first:
+        if self.active and self.offset and self.before:
             self.leave()
         self.active = False
 
@@ -171,10 +160,10 @@ class NistEntry(ElementQueue, RosettaCnc):
             self._refuse_arc(element, "The first move after G40 must be straight")
         if not self.active or not self.offset:
             super().travel(element)
-        elif self.first:
+        elif self.before is None:
             self.enter(element)
         elif element.moves:
-            self._corner(element)
+            self._corner(self.before, element)
             self.follow(element)
         else:
             self.note(element)
@@ -195,15 +184,12 @@ class NistEntry(ElementQueue, RosettaCnc):
         heading = angle - pi / 2 * sign
         self.before = element._replace(end_direction=(cos(heading), sin(heading)))
         self.straight(element, (px + radius * cos(angle), py + radius * sin(angle)))
-        self.first = False
 
     def _refuse_arc(self, element: Element, what: str) -> NoReturn:
         self.log.stop("C8", f"{what}. cutcomp assumes this from NIST's rules.", element)
 
-    def _corner(self, element: Element) -> None:
-        if self.before is None:
-            return
-        joint = self.joint(self.before, element)
+    def _corner(self, before: Element, element: Element) -> None:
+        joint = self.joint(before, element)
         if joint.corner is CornerKind.INSIDE:
             text = "An inside corner is an error with this entry. Round it in the program or use the normal entry."
             self.log.stop("C6", text, element, at=element.start)
@@ -234,12 +220,8 @@ class EasyEntry(NistEntry):
             self.note(element)
             self.standing.append(element)
         else:
-            self._end_entry(offset_start(element, self.offset))
+            self.run_held(offset_start(element, self.offset))
             self.follow(element)
-
-    def _end_entry(self, point: Point) -> None:
-        self.run_held(point)
-        self.first = False
 
     def compensation_off(self, block: Block) -> None:
         """G40: end a first move that still waits at its own offset point."""
@@ -249,7 +231,8 @@ class EasyEntry(NistEntry):
     def end_of_program(self) -> None:
         """End of the program: end a first move that still waits at its own offset point."""
         if self.held is not None:
-            self._end_entry(offset_end(self.held, self.offset))
+            self.before = self.held
+            self.run_held(offset_end(self.held, self.offset))
 
 
 VARIANTS: Final[Mapping[str, type[Control]]] = {"nist": NistEntry, "easy": EasyEntry, "normal": NormalEntry}

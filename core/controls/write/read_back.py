@@ -20,13 +20,7 @@ from core.controls.control_run import ControlRun, Stretch
 from core.controls.control_tools import ToolTable
 from core.controls.moves import Moves
 from core.controls.registry import UnknownControl, run
-from core.controls.write.contour_pass import (
-    CenterMove,
-    CompensatedPass,
-    PassToWrite,
-    WrittenLine,
-    not_written,
-)
+from core.controls.write.contour_pass import CenterMove, CompensatedPass, PassToWrite, WrittenLine, not_written
 from core.finding import Finding, Severity
 from core.geometry.path import Path, as_complex, coordinates
 from core.geometry.piece import Point
