@@ -17,40 +17,42 @@ from core.geometry.piece import Point
 from core.program.solve.run.branch import Anchor, Branch
 from core.tolerance import ARC_RADII, GRAZE, MIN_INDEPENDENT_SINE
 
+Point3 = tuple[float, float, float]
+"""x, y and rho."""
+
 Row = tuple[float, float, float, float]
-"""a x + b y + e rho = f."""
+"""(a, b, e, f): the condition a x + b y + e rho = f, or the number a x + b y + e rho - f."""
+
+ORIGIN: Final = (0.0, 0.0, 0.0)
+AXES: Final = ((1.0, 0.0, 0.0), (0.0, 1.0, 0.0), (0.0, 0.0, 1.0))
 
 VANISHING_COEFFICIENT: Final = 1e-9
 """A coefficient as small as this is zero, where the others of its condition are about 1."""
 
 
 class Quadric(NamedTuple):
-    """square (x^2 + y^2) + rho_square rho^2 + rho (cross_x x + cross_y y) + a x + b y + e rho + rest = 0."""
+    """The condition first^2 + second^2 - less^2 = square on the numbers of three rows."""
 
+    first: Row
+    second: Row
     square: float
-    rho_square: float
-    cross_x: float
-    cross_y: float
-    a: float
-    b: float
-    e: float
-    rest: float
+    less: Row = (0.0, 0.0, 0.0, 0.0)
 
-    def at(self, x: float, y: float, rho: float) -> float:
-        """Return the left side of the equation."""
-        return (
-            self.square * (x * x + y * y)
-            + self.rho_square * rho * rho
-            + rho * (self.cross_x * x + self.cross_y * y)
-            + self.a * x
-            + self.b * y
-            + self.e * rho
-            + self.rest
-        )
+    def at(self, point: Point3) -> float:
+        """Return the left side less the right side of the equation."""
+        u, v, w = (_dot(row, point) - row[3] for row in (self.first, self.second, self.less))
+        return u * u + v * v - w * w - self.square
 
-    def curvature(self, x: float, y: float, rho: float) -> float:
-        """Return the quadratic terms alone."""
-        return self.square * (x * x + y * y) + self.rho_square * rho * rho + rho * (self.cross_x * x + self.cross_y * y)
+    def slope(self, point: Point3, along: Point3) -> float:
+        """Return the derivative of `at` in a direction."""
+        rows = (self.first, self.second, self.less)
+        u, v, w = ((_dot(row, point) - row[3]) * _dot(row, along) for row in rows)
+        return 2.0 * (u + v - w)
+
+    def curvature(self, along: Point3) -> float:
+        """Return half of the second derivative of `at` in a direction."""
+        u, v, w = (_dot(row, along) for row in (self.first, self.second, self.less))
+        return u * u + v * v - w * w
 
 
 class Circles(NamedTuple):
@@ -69,7 +71,7 @@ def circles(branch: Branch, index: int) -> Circles | None:
     """
     origin = branch.run.start
     rows, quadrics = _conditions(branch, index, origin)
-    cones = [quadric for quadric in quadrics if quadric.rho_square < 0.0]
+    cones = [quadric for quadric in quadrics if any(quadric.less)]
     rows += [_difference(cones[0], cone) for cone in cones[1:]]
     basis = _independent(rows)
     if len(basis) == 3:
@@ -77,7 +79,8 @@ def circles(branch: Branch, index: int) -> Circles | None:
         return Circles((((x + origin[0], y + origin[1]), rho),))
     if len(basis) < 2 or not quadrics:
         return None
-    along = _cross(basis[0], basis[1])
+    across = _cross(basis[0], basis[1])
+    along = _moved(ORIGIN, 1.0 / hypot(*across), across)
     if abs(along[2]) < VANISHING_COEFFICIENT:
         along = _agreed_sense(branch, index, along, cones)
     # the point nearest to the origin
@@ -86,7 +89,7 @@ def circles(branch: Branch, index: int) -> Circles | None:
         roots = _roots(quadric, at, along)
         if roots is not None:
             values, grazing = roots
-            points = (tuple(a + value * d for a, d in zip(at, along, strict=True)) for value in values)
+            points = (_moved(at, value, along) for value in values)
             return Circles(tuple(((x + origin[0], y + origin[1]), rho) for x, y, rho in points), grazing)
     return None
 
@@ -99,17 +102,13 @@ def _agreed_sense(branch: Branch, index: int, along: Point3, cones: list[Quadric
             if heading is not None:
                 tx, ty = direction(heading)
                 ahead = tx * along[0] + ty * along[1]
-                return along if ahead >= 0.0 else (-along[0], -along[1], -along[2])
+                return along if ahead >= 0.0 else _moved(ORIGIN, -1.0, along)
     if len(cones) >= 2:
-        # centers of the two cones are at (-a / 2, -b / 2)
-        vector = (cones[0].a - cones[1].a, cones[0].b - cones[1].b)
+        vector = (cones[1].first[3] - cones[0].first[3], cones[1].second[3] - cones[0].second[3])
         left = vector[0] * along[1] - vector[1] * along[0]
         # left of the vector first: the sense leads from left to right
-        return along if left <= 0.0 else (-along[0], -along[1], -along[2])
+        return along if left <= 0.0 else _moved(ORIGIN, -1.0, along)
     return along
-
-
-Point3 = tuple[float, float, float]
 
 
 def _conditions(branch: Branch, index: int, origin: Point) -> tuple[list[Row], list[Quadric]]:
@@ -143,9 +142,11 @@ def _at_joint(
     if heading is None:
         yield from (_cone(anchor, origin) for anchor in anchors)
         return
-    point = branch.joint(joint)
+    point, (nx, ny) = branch.joint(joint), normal(heading)
+    # the joint is at c - rho n
+    coordinates = (1.0, 0.0, -nx, 0.0), (0.0, 1.0, -ny, 0.0)
     for locus in branch.loci(joint) if point is None else (point,):
-        yield from _tied(heading, locus, origin)
+        yield from _on_locus(coordinates, locus, origin)
 
 
 def _swept(branch: Branch, index: int, origin: Point) -> Iterator[Row | Quadric]:
@@ -158,53 +159,42 @@ def _swept(branch: Branch, index: int, origin: Point) -> Iterator[Row | Quadric]
         first, second = branch.joint(start), branch.joint(end)
         if first is None:
             continue
+        c, s = cos(turned), sin(turned)
+        x, y = first[0] - origin[0], first[1] - origin[1]
+        # the first joint rotated about c is at (1 - R) c + R first
+        coordinates = (1.0 - c, s, 0.0, s * y - c * x), (-s, 1.0 - c, 0.0, -s * x - c * y)
         for locus in branch.loci(end) if second is None else (second,):
-            yield from _turned(first, turned, locus, origin)
+            yield from _on_locus(coordinates, locus, origin)
         if second is not None:
             return
 
 
 def _cone(anchor: Anchor, origin: Point) -> Quadric:
-    """Return the condition that ties the center to A: |c - A|^2 = along^2 + (left + rho)^2."""
-    x, y, u, v = anchor.at[0] - origin[0], anchor.at[1] - origin[1], anchor.along, anchor.left
-    return Quadric(1.0, -1.0, 0.0, 0.0, -2.0 * x, -2.0 * y, -2.0 * v, x * x + y * y - u * u - v * v)
+    """Return the condition that ties the center to A: |c - A|^2 - (left + rho)^2 = along^2."""
+    x, y = anchor.at[0] - origin[0], anchor.at[1] - origin[1]
+    return Quadric((1.0, 0.0, 0.0, x), (0.0, 1.0, 0.0, y), anchor.along**2, (0.0, 0.0, 1.0, -anchor.left))
 
 
-def _tied(heading: float, locus: Locus | Point, origin: Point) -> Iterator[Row | Quadric]:
-    """Yield the conditions that the joint c - rho n, with n the normal of its heading, lies on the locus."""
-    nx, ny = normal(heading)
+def _on_locus(coordinates: tuple[Row, Row], locus: Locus | Point, origin: Point) -> Iterator[Row | Quadric]:
+    """Yield the conditions that a joint lies on the locus; the numbers of two rows are the joint's coordinates."""
+    first, second = coordinates
+    if isinstance(locus, OrientedLine):
+        nx, ny = locus.normal
+        a, b, e, f = (nx * x + ny * y for x, y in zip(first, second, strict=True))
+        yield a, b, e, f + locus.offset - nx * origin[0] - ny * origin[1]
+        return
+    at = locus if isinstance(locus, tuple) else locus.center
+    off = (*first[:3], first[3] + at[0] - origin[0]), (*second[:3], second[3] + at[1] - origin[1])
     if isinstance(locus, tuple):
-        yield 1.0, 0.0, -nx, locus[0] - origin[0]
-        yield 0.0, 1.0, -ny, locus[1] - origin[1]
-    elif isinstance(locus, OrientedLine):
-        a, b = locus.normal
-        yield a, b, -(a * nx + b * ny), locus.offset - a * origin[0] - b * origin[1]
+        yield from off
     else:
-        x, y, r = locus.center[0] - origin[0], locus.center[1] - origin[1], locus.radius
-        rest = x * x + y * y - r * r
-        yield Quadric(1.0, 1.0, -2.0 * nx, -2.0 * ny, -2.0 * x, -2.0 * y, 2.0 * (nx * x + ny * y), rest)
-
-
-def _turned(start: Point, angle: float, locus: Locus | Point, origin: Point) -> Iterator[Row | Quadric]:
-    """Yield the conditions that `start` rotated about c, (1 - R) c + R start, lies on the locus."""
-    c, s = cos(angle), sin(angle)
-    x, y = start[0] - origin[0], start[1] - origin[1]
-    px, py = c * x - s * y, s * x + c * y
-    if isinstance(locus, tuple):
-        yield 1.0 - c, s, 0.0, locus[0] - origin[0] - px
-        yield -s, 1.0 - c, 0.0, locus[1] - origin[1] - py
-    elif isinstance(locus, OrientedLine):
-        a, b = locus.normal
-        offset = locus.offset - a * origin[0] - b * origin[1]
-        yield a * (1.0 - c) - b * s, a * s + b * (1.0 - c), 0.0, offset - a * px - b * py
-    else:
-        qx, qy, r = px - (locus.center[0] - origin[0]), py - (locus.center[1] - origin[1]), locus.radius
-        a, b = 2.0 * (qx * (1.0 - c) - qy * s), 2.0 * (qx * s + qy * (1.0 - c))
-        yield Quadric(2.0 - 2.0 * c, 0.0, 0.0, 0.0, a, b, 0.0, qx * qx + qy * qy - r * r)
+        yield Quadric(*off, locus.radius**2)
 
 
 def _difference(first: Quadric, second: Quadric) -> Row:
-    return first.a - second.a, first.b - second.b, first.e - second.e, second.rest - first.rest
+    """Return the linear condition by which two cones differ."""
+    a, b, e = (first.slope(ORIGIN, axis) - second.slope(ORIGIN, axis) for axis in AXES)
+    return a, b, e, second.at(ORIGIN) - first.at(ORIGIN)
 
 
 def _independent(rows: list[Row]) -> list[Row]:
@@ -216,56 +206,50 @@ def _independent(rows: list[Row]) -> list[Row]:
             size = hypot(row[0], row[1], row[2])
             if len(basis) == 3 or size < VANISHING_COEFFICIENT:
                 continue
-            a, b, e = row[0] / size, row[1] / size, row[2] / size
+            a, b, e, f = (value / size for value in row)
             rest = (a, b, e)
             for axis in frame:
-                part = a * axis[0] + b * axis[1] + e * axis[2]
-                rest = (rest[0] - part * axis[0], rest[1] - part * axis[1], rest[2] - part * axis[2])
+                rest = _moved(rest, -_dot((a, b, e), axis), axis)
             left = hypot(*rest)
             if left > least:
-                frame.append((rest[0] / left, rest[1] / left, rest[2] / left))
-                basis.append((a, b, e, row[3] / size))
+                frame.append(_moved(ORIGIN, 1.0 / left, rest))
+                basis.append((a, b, e, f))
     return basis
 
 
+def _dot(row: Row | Point3, point: Point3) -> float:
+    return row[0] * point[0] + row[1] * point[1] + row[2] * point[2]
+
+
+def _moved(point: Point3, by: float, along: Point3) -> Point3:
+    return point[0] + by * along[0], point[1] + by * along[1], point[2] + by * along[2]
+
+
 def _cross(first: Row, second: Row) -> Point3:
-    x = first[1] * second[2] - first[2] * second[1]
-    y = first[2] * second[0] - first[0] * second[2]
-    z = first[0] * second[1] - first[1] * second[0]
-    size = hypot(x, y, z)
-    return x / size, y / size, z / size
-
-
-def _determinant(rows: list[Point3]) -> float:
-    (a, b, c), (d, e, f), (g, h, i) = rows
-    return a * (e * i - f * h) - b * (d * i - f * g) + c * (d * h - e * g)
+    (a, b, c, _), (d, e, f, _) = first, second
+    return b * f - c * e, c * d - a * f, a * e - b * d
 
 
 def _solved(basis: list[Row]) -> Point3:
     """Solve three linear conditions by Cramer's rule."""
-    whole = _determinant([(a, b, c) for a, b, c, _ in basis])
-    return (
-        _determinant([(d, b, c) for _, b, c, d in basis]) / whole,
-        _determinant([(a, d, c) for a, _, c, d in basis]) / whole,
-        _determinant([(a, b, d) for a, b, _, d in basis]) / whole,
-    )
+    first, second, third = basis
+    normals = _cross(second, third), _cross(third, first), _cross(first, second)
+    whole, point = _dot(first, normals[0]), ORIGIN
+    for row, across in zip(basis, normals, strict=True):
+        point = _moved(point, row[3] / whole, across)
+    return point
 
 
 def _roots(quadric: Quadric, at: Point3, along: Point3) -> tuple[tuple[float, ...], bool] | None:
     """Intersect a line in (x, y, rho) with a quadric: the roots, and True if two merge; None if the line lies on it."""
-    size = max(1.0, hypot(*at), abs(quadric.rest) ** 0.5)
-    a = quadric.curvature(*along)
-    b = (
-        quadric.at(*(p + d * size for p, d in zip(at, along, strict=True)))
-        - quadric.at(*(p - d * size for p, d in zip(at, along, strict=True)))
-    ) / (2.0 * size)
-    c = quadric.at(*at)
+    size = max(1.0, hypot(*at), abs(quadric.at(ORIGIN)) ** 0.5)
+    a, b, c = quadric.curvature(along), quadric.slope(at, along), quadric.at(at)
     if abs(a) < VANISHING_COEFFICIENT:
         if abs(b) < VANISHING_COEFFICIENT * size:
             return None if abs(c) < ARC_RADII * size else ((), False)
         return (-c / b,), False
     middle, height = -b / (2.0 * a), c - b * b / (4.0 * a)
-    reach = 2.0 * hypot(*(p + middle * d for p, d in zip(at, along, strict=True)))
+    reach = 2.0 * hypot(*_moved(at, middle, along))
     miss = height if a > 0.0 else -height
     if -GRAZE * reach <= miss <= ARC_RADII * reach:
         return (middle,), True
