@@ -15,8 +15,7 @@ from core.finding import Finding
 from core.pipeline.derived import DerivedBlock, Tag
 from core.program.fields import FIELDS_OF_FORM, SOLUTION, Field, Form, form_of
 from core.program.model import Block, Number, Segment, Unread
-from core.program.solve.solution import Solution, solution_at
-from core.program.solve.solved import Solved, SolvedRun, SolvedSegment, Value
+from core.program.solve.solved import Solution, Solved, SolvedRun, SolvedSegment, Value, solution_at
 from core.units import Unit
 
 RIGHT_COLUMN: Final[Mapping[Form, frozenset[str]]] = MappingProxyType(

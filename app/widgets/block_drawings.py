@@ -15,7 +15,7 @@ from app.widgets.drawing import Drawing
 from app.widgets.findings_list import heading
 from app.widgets.verdict import MARKS_OF_CHARACTERS
 from core.program.fields import form_of
-from core.program.solve.solution import solution_at
+from core.program.solve.solved import solution_at
 
 if TYPE_CHECKING:
     from core.draw.scene import Mark

@@ -14,7 +14,7 @@ from core.geometry.piece import Point
 from core.pipeline.derived import Derived, DerivedBlock
 from core.program.fields import form_of
 from core.program.model import ArcSegment, Relative, Unread
-from core.program.solve.measured import measured_fields
+from core.program.solve.reading import measured_fields
 from core.program.solve.solved import Solved, SolvedRun, SolvedSegment
 from core.units import Kind, Unit, from_mm, sentence, show
 

@@ -38,7 +38,7 @@ from core.geometry.piece_arrays import piece_arrays
 from core.output.dxf import dxf
 from core.output.svg import svg
 from core.pipeline.derived import Derived, DerivedBlock
-from core.program.solve.solution import untaken_pieces
+from core.program.solve.solved import untaken_pieces
 from core.tolerance import JOINED
 from core.units import Unit
 from core.verify.verdict import Verdict

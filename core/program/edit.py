@@ -42,7 +42,7 @@ from core.program.model import (
     changed,
 )
 from core.program.solve.block import solve_block
-from core.program.solve.solution import solution_at
+from core.program.solve.solved import solution_at
 from core.units import Kind, Unit, convert, from_mm, printable
 
 

@@ -18,8 +18,7 @@ from core.geometry.oriented import line_through
 from core.geometry.piece import Arc, Line, Piece, Point, Turn
 from core.program.fields import form_of
 from core.program.model import ArcSegment, CornerSegment, LineSegment, Segment
-from core.program.solve.measured import heading_at
-from core.program.solve.reading import Reading
+from core.program.solve.reading import Reading, heading_at
 from core.program.solve.run import reasons
 from core.program.solve.run.branch import Branch
 from core.program.solve.run.fitting_number import with_fitting_number

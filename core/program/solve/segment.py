@@ -7,8 +7,9 @@ from math import inf
 from typing import Final, assert_never
 
 from core.finding import Finding, Severity
+from core.geometry.construct import polar
 from core.geometry.piece import Arc, Line, Piece, Point, Turn
-from core.program.fields import FIELDS_OF_FORM, LARGEST_LENGTH, form_of
+from core.program.fields import FIELDS_OF_FORM, LARGEST_LENGTH, LINE, form_of
 from core.program.model import (
     ArcSegment,
     BlendSegment,
@@ -18,12 +19,21 @@ from core.program.model import (
     LineSegment,
     Number,
     Segment,
+    Unread,
 )
-from core.program.solve.arc import ARC_TASK, adjustment, circle_finding, is_start
-from core.program.solve.line import LINE_TASK, kept_axis, sketch_of
-from core.program.solve.measured import heading_at, measured_fields
-from core.program.solve.reading import Reading
-from core.program.solve.rules import Given, Outcome, Task, solve
+from core.program.solve.reading import Reading, heading_at, measured_fields
+from core.program.solve.rules import (
+    ARC_TASK,
+    LINE_TASK,
+    Given,
+    Known,
+    Outcome,
+    Task,
+    adjustment,
+    circle_finding,
+    is_start,
+    solve,
+)
 from core.program.solve.solved import Origin, Value
 from core.tolerance import JOINED, LARGEST_COORDINATE
 from core.units import Unit, from_mm
@@ -113,11 +123,20 @@ def own_data(task: Task, reading: Reading, start: Point) -> dict[str, float]:
 
 
 def axis_kept_from(start: Point | None, segment: Segment, reading: Reading) -> int | None:
-    """Return the axis (0 is X) whose coordinate a LINE keeps; None if it keeps none or would have no length."""
-    axis = kept_axis(segment) if isinstance(segment, LineSegment) else None
-    if axis is None or start is None:
+    """Return the axis (0 is X) whose coordinate a LINE keeps: its only typed shape field is the other end coordinate.
+
+    Return None if it keeps none or would have no length.
+    """
+    if not isinstance(segment, LineSegment):
+        return None
+    shape = (field.name for field in LINE if field.name not in ("z_end", "feed"))
+    typed = [name for name in shape if getattr(segment, name) not in (None, False)]
+    if len(typed) != 1 or typed[0] not in _END_FIELDS or isinstance(getattr(segment, typed[0]), Unread):
+        return None
+    name, known = typed[0], reading.known
+    axis = 1 - _END_FIELDS.index(name)
+    if start is None:
         return axis
-    name, known = _END_FIELDS[1 - axis], reading.known
     step = known.get(name + "_inc", known[name] - start[1 - axis] if name in known else inf)
     return axis if abs(step) > JOINED else None
 
@@ -202,8 +221,16 @@ def _unsolved(task: Task, outcome: Outcome, reading: Reading, start: Point) -> S
     """Return the result if nothing fits; missing data are not reported while a typed shape field has a fault."""
     faulty = any(finding.field in task.shape for finding in reading.findings)
     findings = () if outcome.finding is None or (faulty and outcome.missing) else (outcome.finding,)
-    sketch = sketch_of(start, own_data(task, reading, start))
+    sketch = _sketch(start, own_data(task, reading, start))
     return SegmentResult(missing=outcome.missing, sketch=sketch, findings=findings)
+
+
+def _sketch(start: Point, known: Known) -> Line | None:
+    """Return the line or chord to draw dashed for an undetermined segment, toward as much of its end as is typed."""
+    end = (known.get("x_end", start[0]), known.get("y_end", start[1]))
+    if end == start and "length" in known and "angle" in known:
+        end = polar(start, known["angle"], known["length"])
+    return None if end == start else Line(start, end)
 
 
 def calculate(reading: Reading, piece: Piece, unit: Unit) -> None:

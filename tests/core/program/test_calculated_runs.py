@@ -18,7 +18,7 @@ from core.program.file.read import StoreError, loads
 from core.program.file.write import dumps
 from core.program.model import LineSegment, Number, Program, Unread
 from core.program.solve.block import solve_block
-from core.program.solve.solution import solution_at, untaken_pieces
+from core.program.solve.solved import solution_at, untaken_pieces
 from core.units import Unit, sentence
 from tests.core.program.parts import postable
 from tests.core.program.run_files import (

@@ -11,7 +11,7 @@ from math import remainder, tau
 from typing import Final
 
 from core.finding import Finding
-from core.program.solve.measured import ANGLE_FIELDS, measured
+from core.program.solve.reading import ANGLE_FIELDS, measured
 from core.program.solve.run import reasons
 from core.program.solve.run.search import GRAZE_SHIFT, search
 from core.program.solve.run.typed_run import Run

@@ -14,7 +14,7 @@ from typing import Final
 from core.geometry import construct
 from core.geometry.oriented import OrientedLine
 from core.geometry.piece import Arc, Line, Piece, Point
-from core.program.solve.measured import heading_at
+from core.program.solve.reading import heading_at
 from core.program.solve.run.branch import Branch
 from core.program.solve.run.proof import Pieces, objections
 from core.program.solve.run.typed_run import Element, Run

@@ -13,7 +13,7 @@ from core.geometry import construct
 from core.geometry.oriented import OrientedLine, direction
 from core.geometry.piece import ANGLE_ROUNDING, Arc, Line, Piece, Point
 from core.program.fields import LARGEST_LENGTH
-from core.program.solve.measured import ANGLE_FIELDS, heading_at, measured
+from core.program.solve.reading import ANGLE_FIELDS, heading_at, measured
 from core.program.solve.run import reasons
 from core.program.solve.run.branch import Branch
 from core.program.solve.run.typed_run import Element, Run
