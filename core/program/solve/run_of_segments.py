@@ -23,7 +23,7 @@ from core.program.solve.run import reasons
 from core.program.solve.run.branch import Branch
 from core.program.solve.run.fitting_number import with_fitting_number
 from core.program.solve.run.from_pick import Picked, picked_answers
-from core.program.solve.run.search import Answer, Search, search
+from core.program.solve.run.search import Search, search
 from core.program.solve.run.typed_run import MAX_RUN_LENGTH, Element, Parallel, Run
 from core.program.solve.segment import TURNS, Carried, Draft, SegmentResult, axis_kept_from, calculate, draft, drafted
 from core.program.solve.solved import Origin, RunAnswer, SolvedRun
@@ -328,16 +328,14 @@ def _picked(contour: TypedContour, attempt: _Attempt) -> Picked | None:
 
 
 def _answers(attempt: _Attempt, picked: Picked | None) -> tuple[RunAnswer, ...]:
-    numbers = [index + 1 for index in attempt.indices]
-
-    def of_run(answer: Answer, choice: int | None, pick: Point | None) -> RunAnswer:
-        return RunAnswer(tuple(zip(numbers, answer.pieces, strict=True)), answer.length, choice, pick)
-
-    if picked is not None:
-        return tuple(of_run(answer, None, answer.pieces[picked.joint - 1].end) for answer in picked.answers)
-    if attempt.search.stuck is not None:
+    if picked is None and attempt.search.stuck is not None:
         return ()
-    return tuple(of_run(answer, answer.choice, None) for answer in attempt.search.answers)
+    numbers = [index + 1 for index in attempt.indices]
+    answers = attempt.search.answers if picked is None else picked.answers
+    numbered = [(tuple(zip(numbers, answer.pieces, strict=True)), answer) for answer in answers]
+    if picked is None:
+        return tuple(RunAnswer(pieces, answer.choice) for pieces, answer in numbered)
+    return tuple(RunAnswer(pieces, pick=answer.pieces[picked.joint - 1].end) for pieces, answer in numbered)
 
 
 def _taken(
@@ -430,13 +428,13 @@ def _drafts(
     drafts: list[Draft] = []
     for index in range(attempt.indices[0], attempt.indices[-1] + 1):
         segment, reading = contour.segments[index], contour.readings[index]
-        if isinstance(segment, CornerSegment):
+        result = results.get(index)
+        if result is None:
             drafts.append(draft(segment, reading, before, contour.unit))
-            before = drafts[-1].after
-            continue
-        drafts.append(drafted(segment, reading, before, results[index], contour.unit))
+        else:
+            drafts.append(drafted(segment, reading, before, result, contour.unit))
         before = drafts[-1].after
-        if results[index].piece is None and index != attempt.indices[-1]:
+        if result is not None and result.piece is None and index != attempt.indices[-1]:
             joint = attempt.search.known.joint(attempt.indices.index(index) + 1)
             before = replace(before, point=joint or before.point)
     return tuple(drafts)

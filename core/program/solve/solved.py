@@ -69,16 +69,20 @@ class SolvedSegment:
 
 @dataclass(frozen=True, slots=True)
 class RunAnswer:
-    """One solution of a run: its pieces with their segment numbers, before any blending, and their total length.
+    """One solution of a run: its pieces with their segment numbers, before any blending.
 
     A program selects it with `choice` on the run's first segment or, if the run is calculated from a pick, with that
     segment's PICK X and PICK Y set to `pick` (millimeters).
     """
 
     pieces: tuple[tuple[int, Piece], ...]
-    length: float
     choice: int | None = None
     pick: Point | None = None
+
+    @property
+    def length(self) -> float:
+        """The total length of its pieces, in millimeters."""
+        return sum(piece.length for _, piece in self.pieces)
 
 
 @dataclass(frozen=True, slots=True)
@@ -173,7 +177,7 @@ def solution_at(block: SolvedBlock, number: int) -> Solution | None:
     segment = block.segments[number - 1]
     if len(segment.choices) < 2:
         return None
-    answers = tuple(RunAnswer(((number, piece),), piece.length, choice) for choice, piece in enumerate(segment.choices))
+    answers = tuple(RunAnswer(((number, piece),), choice) for choice, piece in enumerate(segment.choices))
     taken = None if segment.sharp is None else segment.choices.index(segment.sharp)
     return Solution(number, answers, taken)
 

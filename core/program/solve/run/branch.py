@@ -110,6 +110,12 @@ class Branch:
         self.put(self.heading_in, index, heading)
         self.put(self.heading_out, index, heading)
 
+    def put_heading_at(self, headings: Numbers, index: int, heading: float) -> None:
+        """Record the heading at the start or at the end of an element, which is the heading of all of a LINE."""
+        self.put(headings, index, heading)
+        if not self.run.elements[index].turn:
+            self.put_heading(index, heading)
+
     def joint(self, index: int) -> Point | None:
         """Return a joint, None unless both coordinates are known."""
         x, y = self.x[index], self.y[index]
@@ -159,9 +165,7 @@ class Branch:
                 self.put_heading(index, known["angle"])
         first = run.elements[0]
         if first.link is not None and run.heading is not None:
-            self.put(self.heading_in, 0, run.heading + first.link)
-            if not first.turn:
-                self.put(self.heading_out, 0, run.heading + first.link)
+            self.put_heading_at(self.heading_in, 0, run.heading + first.link)
 
     # values that need no choice
 
@@ -192,13 +196,9 @@ class Branch:
             return
         before, after = self.heading_out[index - 1], self.heading_in[index]
         if before is not None:
-            self.put(self.heading_in, index, before + link)
-            if not self.run.elements[index].turn:
-                self.put(self.heading_out, index, before + link)
+            self.put_heading_at(self.heading_in, index, before + link)
         elif after is not None:
-            self.put(self.heading_out, index - 1, after - link)
-            if not self.run.elements[index - 1].turn:
-                self.put(self.heading_in, index - 1, after - link)
+            self.put_heading_at(self.heading_out, index - 1, after - link)
         if link == 0.0 and self.joint(index) is None:
             self._touching(index)
 
@@ -316,9 +316,7 @@ class Branch:
             self.put_joint(index, (x + u * tx + v * nx, y + u * ty + v * ny))
         elif joint is not None and heading is None and hypot(joint[0] - x, joint[1] - y) > JOINED:
             derived = atan2(joint[1] - y, joint[0] - x) - atan2(anchor.left, anchor.along)
-            self.put(headings, element, derived)
-            if not self.run.elements[element].turn:
-                self.put_heading(element, derived)
+            self.put_heading_at(headings, element, derived)
 
     def _between_lines(self, index: int) -> None:
         """Derive a joint from two lines that are not parallel."""
@@ -433,20 +431,14 @@ class Branch:
     def _tied_joints(self, index: int) -> Iterator[tuple[float, float, int]]:
         """Yield (dx, dy, joint): the joint itself, and each joint at a known vector from it."""
         yield 0.0, 0.0, index
-        dx = dy = 0.0
-        for element in range(index, len(self.run.elements)):
-            vector = self.vector(element)
-            if vector is None:
-                break
-            dx, dy = dx + vector[0], dy + vector[1]
-            yield dx, dy, element + 1
-        dx = dy = 0.0
-        for element in range(index - 1, -1, -1):
-            vector = self.vector(element)
-            if vector is None:
-                break
-            dx, dy = dx - vector[0], dy - vector[1]
-            yield dx, dy, element
+        for elements, sense in ((range(index, len(self.run.elements)), 1), (range(index - 1, -1, -1), -1)):
+            dx = dy = 0.0
+            for element in elements:
+                vector = self.vector(element)
+                if vector is None:
+                    break
+                dx, dy = dx + sense * vector[0], dy + sense * vector[1]
+                yield dx, dy, element + 1 if sense > 0 else element
 
     def _loci_at(self, index: int) -> Iterator[Locus]:
         x, y = self.x[index], self.y[index]

@@ -94,10 +94,8 @@ def _answers(problem: ChainProblem, joint: int, pick: Point) -> list[Answer]:
 def _starts(problem: ChainProblem, joint: int, pick: Point) -> Iterator[Numbers]:
     """Yield starts, most of which pass near the pick; the other numbers spread evenly (square roots of primes)."""
     for count in range(STARTS_PER_PICK):
-        numbers = [_spread(count, index) * tau for index in range(problem.count)]
-        for index, angular in enumerate(problem.angular):
-            if not angular:
-                numbers[index] = problem.scale * (0.05 + 1.2 * _spread(count, index) ** 2)
+        spread = ((_spread(count, index), angular) for index, angular in enumerate(problem.angular))
+        numbers = [share * tau if angular else problem.scale * (0.05 + 1.2 * share**2) for share, angular in spread]
         if count % 8 != 7:
             _aim(problem, joint, pick, numbers, count)
         yield numbers

@@ -76,7 +76,7 @@ class ChainProblem:
     """
 
     def __init__(self, run: Run, known: Branch) -> None:
-        self.run, self.count = run, 0
+        self.run = run
         self.surplus = run.missing < 0 or any(known.grazes)
         self.scale = max(run.size, 1.0)
         self.angular: list[bool] = []
@@ -86,8 +86,7 @@ class ChainProblem:
         if value is not None:
             return _Slot(value)
         self.angular.append(angular)
-        self.count += 1
-        return _Slot(index=self.count - 1)
+        return _Slot(index=len(self.angular) - 1)
 
     def _part(self, index: int, element: Element, known: Branch) -> _Part:
         follows = index > 0 and element.link is not None
@@ -164,7 +163,7 @@ class ChainProblem:
 
     def numbers_of(self, pieces: Pieces) -> Numbers:
         """Return the values of the unknowns in a chain of pieces."""
-        numbers = [0.0] * self.count
+        numbers = [0.0] * len(self.angular)
         for part, piece in zip(self.parts, pieces, strict=True):
             heading = heading_at(piece, piece.start)
             sweep = abs(piece.sweep) if isinstance(piece, Arc) else 0.0

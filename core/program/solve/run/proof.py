@@ -6,7 +6,7 @@ A branch that disagrees is dropped, so that surplus data choose among branches. 
 
 from __future__ import annotations
 
-from math import dist, hypot, pi, sin, tau
+from math import dist, hypot, remainder, sin, tau
 
 from core.finding import Finding
 from core.geometry import construct
@@ -14,6 +14,7 @@ from core.geometry.oriented import OrientedLine, direction
 from core.geometry.piece import ANGLE_ROUNDING, Arc, Line, Piece, Point
 from core.program.fields import LARGEST_LENGTH
 from core.program.solve.reading import ANGLE_FIELDS, heading_at, measured
+from core.program.solve.rules import turns_alike
 from core.program.solve.run import reasons
 from core.program.solve.run.branch import Branch
 from core.program.solve.run.typed_run import Element, Run
@@ -37,7 +38,7 @@ def chain_of(branch: Branch) -> tuple[Pieces | None, tuple[Finding, ...]]:
         if element.turn:
             center = branch.center(index)
             assert center is not None
-            piece, trouble = _arc(run, index, start, end, center)
+            piece, trouble = _arc(element, start, end, center)
             far = far or max(map(abs, center)) > LARGEST_COORDINATE
         else:
             piece, trouble = _line(run, index, start, end, branch)
@@ -55,7 +56,7 @@ def _line(run: Run, index: int, start: Point, end: Point, branch: Branch) -> tup
     heading = branch.heading_in[index]
     vector = (end[0] - start[0], end[1] - start[1])
     if hypot(*vector) <= JOINED:
-        return None, [reasons.no_length(run, index)]
+        return None, [reasons.no_length(run.elements[index])]
     if heading is None:
         return Line(start, end), []
     tx, ty = direction(heading)
@@ -65,19 +66,18 @@ def _line(run: Run, index: int, start: Point, end: Point, branch: Branch) -> tup
     return Line(start, end), []
 
 
-def _arc(run: Run, index: int, start: Point, end: Point, center: Point) -> tuple[Arc | None, list[Finding]]:
+def _arc(element: Element, start: Point, end: Point, center: Point) -> tuple[Arc | None, list[Finding]]:
     """Return an arc; None with an objection if its radii at both ends differ or it has no length."""
-    element = run.elements[index]
     radius, out = dist(start, center), dist(end, center)
     if dist(start, end) <= CLOSED:
         if not _full(element, start):
-            return None, [reasons.no_length(run, index)]
+            return None, [reasons.no_length(element)]
         return Arc(start, start, center, element.turn), []
     if abs(radius - out) > ARC_RADII:
-        return None, [reasons.radii_differ(run, index, radius, out)]
+        return None, [reasons.radii_differ(element, radius, out)]
     arc = construct.even_arc(start, end, center, element.turn)
     if arc.length <= JOINED:
-        return None, [reasons.no_length(run, index)]
+        return None, [reasons.no_length(element)]
     return arc, []
 
 
@@ -99,7 +99,7 @@ def objections(run: Run, pieces: Pieces) -> tuple[Finding, ...]:
         leaving = heading_at(piece, piece.start)
         if element.link is not None and before is not None:
             turned = leaving - before - element.link
-            if not _same_heading(turned, _reach(piece)):
+            if not turns_alike(remainder(turned, tau), piece):
                 findings.append(reasons.not_linked(run, index, element.link, leaving - before))
         findings += _parallel(run, pieces, index)
         before = heading_at(piece, piece.end)
@@ -114,8 +114,7 @@ def _field_objections(run: Run, index: int, element: Element, piece: Piece) -> l
         if typed is None:
             continue
         if name in ANGLE_FIELDS:
-            off = abs(typed - actual) if name == "sweep" else typed - actual
-            if not _same_heading(off, _reach(piece)):
+            if not turns_alike(remainder(typed - actual, tau), piece):
                 findings.append(reasons.angle_differs(run, index, name, typed, actual))
         elif abs(typed - actual) > ARC_RADII:
             findings.append(reasons.length_differs(run, index, name, typed, actual))
@@ -123,7 +122,7 @@ def _field_objections(run: Run, index: int, element: Element, piece: Piece) -> l
     if point is not None:
         distance, typed = _distance(piece, point), element.known.get("point_dist", 0.0)
         if abs(distance - typed) > ARC_RADII:
-            findings.append(reasons.point_missed(run, index, point, typed, distance))
+            findings.append(reasons.point_missed(element, point, typed, distance))
     return findings
 
 
@@ -133,16 +132,6 @@ def _distance(piece: Piece, point: Point) -> float:
         return abs(dist(point, piece.center) - piece.radius)
     tx, ty = piece.direction_at(piece.start)
     return abs(tx * (point[1] - piece.start[1]) - ty * (point[0] - piece.start[0]))
-
-
-def _reach(piece: Piece) -> float:
-    """Return how far an angle error displaces a piece, per radian."""
-    return piece.length if isinstance(piece, Line) else piece.radius
-
-
-def _same_heading(off: float, reach: float) -> bool:
-    off = abs((off + pi) % tau - pi)
-    return off <= AGREES or off * reach <= ARC_RADII
 
 
 def _parallel(run: Run, pieces: Pieces, index: int) -> list[Finding]:
@@ -160,7 +149,7 @@ def _parallel(run: Run, pieces: Pieces, index: int) -> list[Finding]:
     actual = heading_at(piece, piece.start)
     off = actual - heading
     if abs(sin(off)) > AGREES and abs(sin(off)) * piece.length > ARC_RADII:
-        return [reasons.not_parallel(run, index, heading, actual)]
+        return [reasons.not_parallel(element, heading, actual)]
     typed = element.known.get("offset")
     if typed is not None and abs(apart - typed) > ARC_RADII:
         return [reasons.length_differs(run, index, "offset", typed, apart)]

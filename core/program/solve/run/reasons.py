@@ -8,7 +8,7 @@ from __future__ import annotations
 from math import cos, degrees, dist, pi, tau
 
 from core.finding import Finding, Severity
-from core.geometry.oriented import Circle, Locus, OrientedLine
+from core.geometry.oriented import Circle, Locus
 from core.geometry.piece import Point, Turn
 from core.program.fields import Form, field_of
 from core.program.solve.rules import angle_text, counted_like
@@ -57,9 +57,8 @@ def line_runs_backward(run: Run, index: int, length: float, heading: float) -> F
     return _fault("BEHIND", text, element, field, length)
 
 
-def no_length(run: Run, index: int) -> Finding:
+def no_length(element: Element) -> Finding:
     """An element would have no length."""
-    element = run.elements[index]
     text = f"Segment {element.number} would have no length: delete it, or correct the segments before and after it."
     return _fault("NO_LENGTH_LEFT", text, element, None)
 
@@ -79,10 +78,10 @@ def out_of_range(branch: Branch, index: int) -> Finding:
     return _fault("OUT_OF_RANGE", text, element, None)
 
 
-def radii_differ(run: Run, index: int, radius: float, out: float) -> Finding:
+def radii_differ(element: Element, radius: float, out: float) -> Finding:
     """An arc's ends lie at different distances from its center."""
     text = "The arc's radius is {0~1} at its start and {1~0} at its end: correct the end, the center or RADIUS."
-    return _fault("CONTRADICTION", text, run.elements[index], "radius", radius, out)
+    return _fault("CONTRADICTION", text, element, "radius", radius, out)
 
 
 def _rest(run: Run) -> str:
@@ -109,9 +108,8 @@ def length_differs(run: Run, index: int, name: str, typed: float, actual: float)
     return _fault("CONTRADICTION", text, element, name.removesuffix("_inc"), typed, actual)
 
 
-def point_missed(run: Run, index: int, point: Point, typed: float, actual: float) -> Finding:
+def point_missed(element: Element, point: Point, typed: float, actual: float) -> Finding:
     """An element passes its point at a distance other than the typed one."""
-    element = run.elements[index]
     text = f"The point {{2}} {{3}} is {{1~0}} from segment {element.number}, not {{0~1}}: correct or blank it."
     return _fault("CONTRADICTION", text, element, "point_x", typed, actual, *point)
 
@@ -128,9 +126,8 @@ def not_linked(run: Run, index: int, link: float, actual: float) -> Finding:
     return _fault("CONTRADICTION", f"{text}one of them.", element, name)
 
 
-def not_parallel(run: Run, index: int, wanted: float, actual: float) -> Finding:
+def not_parallel(element: Element, wanted: float, actual: float) -> Finding:
     """A line is not parallel to its target, which runs at the wanted angle or opposite to it."""
-    element = run.elements[index]
     if cos(actual - wanted) < 0.0:
         wanted += pi
     if (typed := element.known.get("angle")) is not None:
@@ -152,23 +149,20 @@ def coincident(run: Run, index: int) -> Finding:
     return _fault("UNDETERMINED", text, second, None)
 
 
-def no_meeting(branch: Branch, joint: int, first: Locus, second: Locus) -> Finding:
-    """Two loci of a joint miss each other."""
+def no_meeting(branch: Branch, joint: int, first: Locus, second: Locus, apart: float) -> Finding:
+    """Two loci of a joint miss each other; `apart` is as in `oriented.Meeting`."""
     elements = branch.run.elements
     before = elements[joint - 1]
     after = elements[joint] if joint < len(elements) else before
-    carriers = [
-        _arc_about(branch, (joint - 1, joint), locus.center) if isinstance(locus, Circle) else None
-        for locus in (first, second)
-    ]
-    if isinstance(first, OrientedLine) and isinstance(second, OrientedLine):
-        return _parallel_lines(before, after, first, second)
-    if isinstance(first, Circle) and isinstance(second, Circle):
-        return _apart(before, after, first, second, carriers)
-    line, circle = (first, second) if isinstance(first, OrientedLine) else (second, first)
-    assert isinstance(line, OrientedLine)
-    assert isinstance(circle, Circle)
-    return _line_misses(before, after, line, circle, carriers[0] if circle is first else carriers[1])
+    circles = [locus for locus in (first, second) if isinstance(locus, Circle)]
+    arcs = [_arc_about(branch, (joint - 1, joint), circle.center) for circle in circles]
+    match circles:
+        case [circle]:
+            return _line_misses(before, after, apart, circle, arcs[0])
+        case [_, _]:
+            return _circles_miss(before, after, apart, circles, arcs)
+        case _:
+            return _parallel_lines(before, after, apart)
 
 
 def _arc_about(branch: Branch, indices: tuple[int, int], at: Point) -> Element | None:
@@ -181,9 +175,7 @@ def _arc_about(branch: Branch, indices: tuple[int, int], at: Point) -> Element |
     return None
 
 
-def _parallel_lines(before: Element, after: Element, first: OrientedLine, second: OrientedLine) -> Finding:
-    (ax, ay), (bx, by) = first.normal, second.normal
-    apart = abs(first.offset - (second.offset if ax * bx + ay * by > 0.0 else -second.offset))
+def _parallel_lines(before: Element, after: Element, apart: float) -> Finding:
     if before is after:
         text = f"Segment {before.number} runs {{0}} beside the end that is typed: it never reaches it. Correct one."
         return _fault("NO_MEETING", text, before, None, apart)
@@ -191,9 +183,7 @@ def _parallel_lines(before: Element, after: Element, first: OrientedLine, second
     return _fault("NO_MEETING", text, after, None, apart)
 
 
-def _line_misses(before: Element, after: Element, line: OrientedLine, circle: Circle, arc: Element | None) -> Finding:
-    nx, ny = line.normal
-    height = abs(nx * circle.center[0] + ny * circle.center[1] - line.offset)
+def _line_misses(before: Element, after: Element, height: float, circle: Circle, arc: Element | None) -> Finding:
     if arc is not None:
         other = before if arc is after else after
         subject = f"Segment {other.number}" if other is not arc else "The end that is typed"
@@ -205,9 +195,11 @@ def _line_misses(before: Element, after: Element, line: OrientedLine, circle: Ci
     return _fault("TOO_SHORT", text, element, field, circle.radius, height)
 
 
-def _apart(before: Element, after: Element, first: Circle, second: Circle, carriers: list[Element | None]) -> Finding:
-    between = dist(first.center, second.center)
-    if carriers[0] is not None and carriers[1] is not None:
+def _circles_miss(
+    before: Element, after: Element, between: float, circles: list[Circle], arcs: list[Element | None]
+) -> Finding:
+    first, second = circles
+    if None not in arcs:
         text = f"The circles of segments {before.number} and {after.number} never meet: their centers are {{2}} apart, "
         text += "their RADIUS {0} and {1}."
         return _fault("NO_MEETING", text, after, "radius", first.radius, second.radius, between)
@@ -244,9 +236,8 @@ def no_tangent(
     return _fault("NO_TANGENT", text, element, None)
 
 
-def no_circle(branch: Branch, index: int) -> Finding:
+def no_circle(element: Element) -> Finding:
     """No circle meets the conditions; `fitting_number` looks for a RADIUS that does."""
-    element = branch.run.elements[index]
     if "radius" in element.known:
         text = f"RADIUS {{0}} fits nowhere between the segments before and after segment {element.number}."
         return _fault("TOO_SMALL", text, element, "radius", element.known["radius"])
@@ -275,9 +266,8 @@ def radius_limit(run: Run, index: int, limit: float, *, least: bool) -> Finding:
     return _fault("TOO_LARGE", text, element, "radius", radius, limit)
 
 
-def wrong_sense(branch: Branch, index: int) -> Finding:
+def wrong_sense(element: Element) -> Finding:
     """The circle that fits turns in the other DIRECTION."""
-    element = branch.run.elements[index]
     direction, other = ("CW", "CCW") if element.turn is Turn.CW else ("CCW", "CW")
     text = f"DIRECTION {direction}: a tangent arc to this end turns {other}."
     return _fault("WRONG_SENSE", text, element, "direction")

@@ -40,16 +40,18 @@ def _parallel(branch: Branch) -> Ways | None:
         theirs = target.heading if isinstance(target, OrientedLine) else branch.heading_in[target]
         ours = branch.heading_in[index]
         if theirs is not None and ours is None:
-            return [_headed(branch, root, index, theirs + root * pi) for root in (0, 1)]
+            return _headed(branch, index, (theirs, theirs + pi))
         if theirs is None and ours is not None and not isinstance(target, OrientedLine):
-            return [_headed(branch, root, target, ours + root * pi) for root in (0, 1)]
+            return _headed(branch, target, (ours, ours + pi))
     return None
 
 
-def _headed(branch: Branch, root: int, index: int, heading: float) -> Branch:
-    way = branch.chosen(root)
-    way.put_heading(index, heading)
-    return way
+def _headed(branch: Branch, index: int, headings: tuple[float, ...], *, grazing: bool = False) -> Ways:
+    """Return a branch for each heading that a LINE may have."""
+    ways = [branch.chosen(root, grazing=grazing) for root in range(len(headings))]
+    for way, heading in zip(ways, headings, strict=True):
+        way.put_heading(index, heading)
+    return ways
 
 
 def _joint(branch: Branch) -> Ways | None:
@@ -59,7 +61,7 @@ def _joint(branch: Branch) -> Ways | None:
             continue
         met = meeting(loci[0], loci[1])
         if not met.points:
-            raise DeadEnd(reasons.no_meeting(branch, index, loci[0], loci[1]))
+            raise DeadEnd(reasons.no_meeting(branch, index, loci[0], loci[1], met.apart))
         ways = [branch.chosen(root, grazing=met.grazing) for root in range(len(met.points))]
         for way, point in zip(ways, met.points, strict=True):
             way.put_joint(index, point)
@@ -93,21 +95,20 @@ def _circle(branch: Branch) -> Ways | None:
 
 
 def _circle_ways(branch: Branch, index: int, answer: Circles) -> Ways:
+    element = branch.run.elements[index]
     if not answer.fitting:
-        raise DeadEnd(reasons.no_circle(branch, index))
-    turn = branch.run.elements[index].turn
+        raise DeadEnd(reasons.no_circle(element))
     single = len(answer.fitting) == 1 and not answer.grazing
     ways = []
     for root, (center, rho) in enumerate(answer.fitting):
-        if rho * turn <= JOINED:
+        if rho * element.turn <= JOINED:
             continue
         way = branch.copy() if single else branch.chosen(root, grazing=answer.grazing)
         way.put_center(index, center)
         way.put(way.rho, index, rho)
-        way.changed = True
         ways.append(way)
     if not ways:
-        raise DeadEnd(reasons.wrong_sense(branch, index))
+        raise DeadEnd(reasons.wrong_sense(element))
     return ways
 
 
@@ -122,7 +123,6 @@ def _plain_headings(branch: Branch) -> Ways | None:
             raise DeadEnd(reasons.no_tangent(branch, index, first, second))
         way = way or branch.copy()
         way.put_heading(index, headings[0])
-        way.changed = True
     return None if way is None else [way]
 
 
@@ -132,10 +132,7 @@ def _heading(branch: Branch) -> Ways | None:
         headings, grazing = headings_at_distances(first[0], first[1], second[0], second[1])
         if not headings:
             raise DeadEnd(reasons.no_tangent(branch, index, first, second))
-        ways = [branch.chosen(root, grazing=grazing) for root in range(len(headings))]
-        for way, heading in zip(ways, headings, strict=True):
-            way.put_heading(index, heading)
-        return ways
+        return _headed(branch, index, headings, grazing=grazing)
     return None
 
 
@@ -190,7 +187,6 @@ def _offset_ways(branch: Branch, index: int, target: OrientedLine, offset: float
         way = branch.chosen(root) if offset else branch.copy()
         shifted = target.offset + side * offset
         way.put(way.offset, index, shifted if same else -shifted)
-        way.changed = True
         ways.append(way)
     return ways
 
@@ -203,7 +199,7 @@ def _along_axis(branch: Branch) -> Ways | None:
         for coordinates, heading in ((branch.y, 0.0), (branch.x, pi / 2.0)):
             start, end = coordinates[index], coordinates[index + 1]
             if start is not None and end is not None and abs(end - start) <= JOINED:
-                return [_headed(branch, root, index, heading + root * pi) for root in (0, 1)]
+                return _headed(branch, index, (heading, heading + pi))
     return None
 
 
