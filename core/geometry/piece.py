@@ -54,6 +54,10 @@ class Line:
         size = self.length
         return (self.end[0] - self.start[0]) / size, (self.end[1] - self.start[1]) / size
 
+    def reversed(self) -> Line:
+        """Return the line traveled the other way."""
+        return Line(self.end, self.start)
+
 
 @dataclass(frozen=True, slots=True)
 class Arc:
@@ -95,6 +99,10 @@ class Arc:
         dx, dy = at[0] - self.center[0], at[1] - self.center[1]
         size = hypot(dx, dy)
         return -dy / size * self.turn, dx / size * self.turn
+
+    def reversed(self) -> Arc:
+        """Return the arc traveled the other way."""
+        return Arc(self.end, self.start, self.center, Turn(-self.turn))
 
 
 Piece = Line | Arc

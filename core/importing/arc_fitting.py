@@ -12,10 +12,10 @@ from math import radians, tau
 from typing import Final, NamedTuple
 
 import numpy as np
-from numpy.typing import NDArray
 
+from core.geometry.path import Floats, Points
 from core.geometry.piece import Arc, Line, Piece, Turn, point_of
-from core.importing.curves import MAX_RADIUS, Points
+from core.importing.curves import MAX_RADIUS
 
 MIN_CORNER_ANGLE: Final = radians(5.05)
 """5 degrees, the turns of a circle of 72 lines, and what rounded coordinates add to them."""
@@ -52,43 +52,29 @@ def fit_arcs(pieces: Sequence[Piece], fit: float, *, closed: bool) -> Fitted:
     if start is None:
         fitted, off = _ring(_points(pieces), fit)
         return Fitted(tuple(fitted), len(pieces), off)
-    turned = [*pieces[start:], *pieces[:start]]
-    result: list[Piece] = []
-    off, run = 0.0, list[Piece]()
-    for piece in turned:
-        if not isinstance(piece, Line) or (run and _is_corner(run[-1], piece)):
-            off = max(off, _flush(run, result, fit))
-        if isinstance(piece, Line):
-            run.append(piece)
+    runs: list[list[Piece]] = []
+    for piece in (*pieces[start:], *pieces[:start]):
+        if runs and _goes_on(runs[-1][-1], piece):
+            runs[-1].append(piece)
         else:
-            result.append(piece)
-    off = max(off, _flush(run, result, fit))
-    return Fitted(tuple(result), len(pieces), off)
-
-
-def _flush(run: list[Piece], result: list[Piece], fit: float) -> float:
-    """Fit a run of lines, append it to the result, empty the run; return how far the fit is off."""
-    if not run:
-        return 0.0
-    fitted, off = _open_run(_points(run), fit)
-    result += fitted
-    run.clear()
-    return off
+            runs.append([piece])
+    fits = [_open_run(_points(run), fit) if isinstance(run[0], Line) else (run, 0.0) for run in runs]
+    made = tuple(piece for fitted, _ in fits for piece in fitted)
+    return Fitted(made, len(pieces), max((off for _, off in fits), default=0.0))
 
 
 def _first_break(pieces: Sequence[Piece]) -> int | None:
     """Return the row of a ring's first piece that starts a new run; None if it is smooth lines all around."""
-    for row, piece in enumerate(pieces):
-        before = pieces[row - 1]
-        if not isinstance(piece, Line) or not isinstance(before, Line) or _is_corner(before, piece):
-            return row
-    return None
+    return next((row for row, piece in enumerate(pieces) if not _goes_on(pieces[row - 1], piece)), None)
 
 
-def _is_corner(before: Piece, after: Piece) -> bool:
+def _goes_on(before: Piece, after: Piece) -> bool:
+    """True if two pieces are lines without a corner between them."""
+    if not (isinstance(before, Line) and isinstance(after, Line)):
+        return False
     u = complex(*before.end) - complex(*before.start)
     v = complex(*after.end) - complex(*after.start)
-    return bool(abs(np.angle(v * u.conjugate())) > MIN_CORNER_ANGLE)
+    return bool(abs(np.angle(v * u.conjugate())) <= MIN_CORNER_ANGLE)
 
 
 def _points(pieces: Sequence[Piece]) -> Points:
@@ -128,7 +114,7 @@ def _circle(points: Points, fit: float) -> _Fit | None:
     return _Fit(Arc(begin, begin, point_of(at), Turn.CCW if turned.sum() > 0.0 else Turn.CW), off)
 
 
-def _turns_one_way(turned: NDArray[np.float64]) -> bool:
+def _turns_one_way(turned: Floats) -> bool:
     return bool((turned > 0.0).all() or (turned < 0.0).all())
 
 

@@ -7,7 +7,7 @@ from __future__ import annotations
 
 from collections import Counter, defaultdict
 from collections.abc import Iterable, Iterator, Sequence
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from itertools import combinations, pairwise
 from math import atan2, dist, floor, inf, pi, tau
 from typing import Final, NamedTuple, TypeGuard
@@ -76,13 +76,6 @@ def clean_up(pieces: Iterable[LayeredPiece], tolerance: float) -> Cleaned:
     return cleaned
 
 
-def reversed_piece(piece: Piece) -> Piece:
-    """Return the piece traveled the other way."""
-    if isinstance(piece, Line):
-        return Line(piece.end, piece.start)
-    return Arc(piece.end, piece.start, piece.center, Turn(-piece.turn))
-
-
 def is_circle(piece: Piece) -> TypeGuard[Arc]:
     """True if a piece is a full circle."""
     return isinstance(piece, Arc) and piece.start == piece.end
@@ -95,7 +88,7 @@ def _oriented(item: LayeredPiece) -> LayeredPiece:
         start = (piece.center[0] - piece.radius, piece.center[1])
         return item._replace(piece=Arc(start, start, piece.center, Turn.CCW))
     first, last = (tuple(round(value, KEY_DECIMALS) for value in point) for point in (piece.start, piece.end))
-    return item if first <= last else item._replace(piece=reversed_piece(piece))
+    return item if first <= last else item._replace(piece=piece.reversed())
 
 
 def _key(item: LayeredPiece) -> tuple[float, ...]:
@@ -391,9 +384,8 @@ class _Joiner:
         union = _union(self.items[first].piece, self.items[second].piece, self.slack)
         if union is None:
             return
-        piece, ends = union
         pieces = self.items[first].piece, self.items[second].piece
-        for row, end in {(0, 0), (0, 1), (1, 0), (1, 1)}.difference(ends):
+        for row, end in {(0, 0), (0, 1), (1, 0), (1, 1)} - {union.start, union.end}:
             at, other = (pieces[row].start, pieces[row].end)[end], pieces[1 - row]
             continuing = {self._row(neighbor) for neighbor in both[row][end]} - {first, second}
             if min(dist(at, other.start), dist(at, other.end)) > self.slack and any(
@@ -401,9 +393,10 @@ class _Joiner:
             ):
                 return
         self.into[second] = first
-        longer = second if ends[0][0] == ends[1][0] == 1 else first
-        self.items[first] = self.items[longer]._replace(piece=piece)
-        self.beyond[first] = (both[ends[0][0]][ends[0][1]], both[ends[1][0]][ends[1][1]])
+        (start_of, start), (end_of, end) = union.start, union.end
+        longer = second if start_of == end_of == 1 else first
+        self.items[first] = self.items[longer]._replace(piece=union.piece)
+        self.beyond[first] = both[start_of][start], both[end_of][end]
 
     def _row(self, row: int) -> int:
         while row in self.into:
@@ -411,11 +404,23 @@ class _Joiner:
         return row
 
 
-_EndsOf = tuple[tuple[int, int], tuple[int, int]]
-"""For the start and the end of a union: which piece it comes from, and which end of that piece."""
+_PieceEnd = tuple[int, int]
+"""Which of two pieces, and which end of it: 0 for its start."""
 
 
-def _union(first: Piece, second: Piece, slack: float) -> tuple[Piece, _EndsOf] | None:
+class _Directed(NamedTuple):
+    """A piece, perhaps reversed, and what its ends are: which piece it comes from, and which end of that."""
+
+    piece: Piece
+    start: _PieceEnd
+    end: _PieceEnd
+
+
+def _directed(number: int, piece: Piece, *, back: bool) -> _Directed:
+    return _Directed(piece.reversed() if back else piece, (number, int(back)), (number, int(not back)))
+
+
+def _union(first: Piece, second: Piece, slack: float) -> _Directed | None:
     """Return the two pieces as one if they overlap by more than the slack, else None."""
     if isinstance(first, Line) and isinstance(second, Line):
         return _line_union(first, second, slack)
@@ -424,7 +429,7 @@ def _union(first: Piece, second: Piece, slack: float) -> tuple[Piece, _EndsOf] |
     return None
 
 
-def _line_union(first: Line, second: Line, slack: float) -> tuple[Piece, _EndsOf] | None:
+def _line_union(first: Line, second: Line, slack: float) -> _Directed | None:
     longer, number, shorter = (first, 0, second) if first.length >= second.length else (second, 1, first)
     if longer.length <= 4.0 * slack:
         return None
@@ -432,44 +437,41 @@ def _line_union(first: Line, second: Line, slack: float) -> tuple[Piece, _EndsOf
     local = [((px - x) * dx + (py - y) * dy, (py - y) * dx - (px - x) * dy) for px, py in (shorter.start, shorter.end)]
     if any(abs(off) > slack for _, off in local):
         return None
-    low, high = min(local[0][0], local[1][0]), max(local[0][0], local[1][0])
-    if min(high, longer.length) - max(low, 0.0) <= slack:
-        return None
-    forward = local[0][0] <= local[1][0]
-    start, end = (longer.start, (number, 0)), (longer.end, (number, 1))
-    if low < -slack:
-        start = (shorter.start, (1 - number, 0)) if forward else (shorter.end, (1 - number, 1))
-    if high > longer.length + slack:
-        end = (shorter.end, (1 - number, 1)) if forward else (shorter.start, (1 - number, 0))
-    return Line(start[0], end[0]), (start[1], end[1])
+    (begin, _), (end, _) = local
+    after = _directed(1 - number, shorter, back=begin > end)
+    interval = min(begin, end), max(begin, end)
+    return _both(_directed(number, longer, back=False), longer.length, after, interval, slack)
 
 
-def _arc_union(first: Arc, second: Arc, slack: float) -> tuple[Piece, _EndsOf] | None:
+def _arc_union(first: Arc, second: Arc, slack: float) -> _Directed | None:
     if dist(first.center, second.center) > slack or abs(first.radius - second.radius) > slack:
         return None
     for number, arc in enumerate((first, second)):
         if arc.start == arc.end:
-            return arc, ((number, 0), (number, 1))
-    base, after = (arc if arc.turn > 0 else reversed_piece(arc) for arc in (first, second))
-    assert isinstance(base, Arc)
-    assert isinstance(after, Arc)
-    reach = slack / first.radius
+            return _directed(number, arc, back=False)
+    base, after = (_directed(number, arc, back=arc.turn < 0) for number, arc in enumerate((first, second)))
+    sweeps, reach = (abs(first.sweep), abs(second.sweep)), slack / first.radius
     # angles from the start of the first, counterclockwise
-    begin = _angle(first.center, base.start, after.start)
-    end = begin + after.sweep
-    if tau - begin <= after.sweep - reach:
-        begin, end = begin - tau, end - tau
-    if min(base.sweep, end) - max(0.0, begin) <= reach:
+    begin = _angle(first.center, base.piece.start, after.piece.start)
+    if tau - begin <= sweeps[1] - reach:
+        begin -= tau
+    end = begin + sweeps[1]
+    union = _both(base, sweeps[0], after, (begin, end), reach)
+    if union is not None and max(sweeps[0], end) - min(0.0, begin) >= tau - reach:
+        whole = Arc(base.piece.start, base.piece.start, first.center, Turn.CCW)
+        return _Directed(whole, (0, 0), (0, 1))
+    return union
+
+
+def _both(
+    base: _Directed, size: float, after: _Directed, interval: tuple[float, float], slack: float
+) -> _Directed | None:
+    """Return two pieces as one, measured along the first, which has this size; the second covers the interval."""
+    begin, end = interval
+    if min(end, size) - max(begin, 0.0) <= slack:
         return None
-    ends = [
-        [(0, 0), (0, 1)] if first.turn > 0 else [(0, 1), (0, 0)],
-        [(1, 0), (1, 1)] if second.turn > 0 else [(1, 1), (1, 0)],
-    ]
-    start_at, start_of = (after.start, ends[1][0]) if begin < -reach else (base.start, ends[0][0])
-    end_at, end_of = (after.end, ends[1][1]) if end > base.sweep + reach else (base.end, ends[0][1])
-    if max(base.sweep, end) - min(0.0, begin) >= tau - reach:
-        return Arc(base.start, base.start, base.center, Turn.CCW), ((0, 0), (0, 1))
-    return Arc(start_at, end_at, base.center, Turn.CCW), (start_of, end_of)
+    first, last = after if begin < -slack else base, after if end > size + slack else base
+    return _Directed(replace(base.piece, start=first.piece.start, end=last.piece.end), first.start, last.end)
 
 
 def _angle(center: Point, first: Point, second: Point) -> float:

@@ -4,9 +4,14 @@ from __future__ import annotations
 
 from dataclasses import dataclass, replace
 from enum import StrEnum
-from math import atan2, dist, pi
+from math import dist
 
+import numpy as np
+
+from core.geometry.distance import distance, foot
+from core.geometry.path import Path
 from core.geometry.piece import Arc, Line, Piece, Point, Side, Turn
+from core.geometry.piece_arrays import piece_arrays
 from core.importing.arc_fitting import Fitted, fit_arcs
 from core.importing.clean_up import is_circle
 from core.importing.joints import joined_chain, reversed_pieces
@@ -135,11 +140,10 @@ def started_at(contour: Contour, point: Point) -> Contour:
         first, last = (dist(point, end) for end in (contour.pieces[0].start, contour.pieces[-1].end))
         return contour if first <= last else reversed_contour(contour)
     whole = _undivided(contour)
-    row, share = min(
-        ((row, _nearest_share(piece, point)) for row, piece in enumerate(whole.pieces)),
-        key=lambda place: dist(point, whole.pieces[place[0]].point_at(place[1])),
-    )
-    return _started_on(whole, row, share)
+    pieces = piece_arrays(Path.from_pieces(whole.pieces))
+    points = np.full(len(pieces), complex(*point))
+    nearest = int(distance(pieces, points).argmin())
+    return _started_on(whole, int(pieces.rows[nearest]), float(foot(pieces, points)[nearest]))
 
 
 def started_at_corner(contour: Contour, step: int) -> Contour:
@@ -187,23 +191,6 @@ def _started_on(contour: Contour, row: int, share: float) -> Contour:
     middle = piece.point_at(share)
     first, second = replace(piece, end=middle), replace(piece, start=middle)
     return replace(contour, pieces=(second, *pieces[row + 1 :], *pieces[:row], first))
-
-
-def _nearest_share(piece: Piece, point: Point) -> float:
-    """Return the fraction of a piece's length at which it is nearest to a point."""
-    if isinstance(piece, Line):
-        (x, y), (dx, dy) = piece.start, piece.direction_at(piece.start)
-        along = (point[0] - x) * dx + (point[1] - y) * dy
-        return min(max(along / piece.length, 0.0), 1.0)
-    (cx, cy), (x, y) = piece.center, piece.start
-    if dist(point, piece.center) == 0.0:
-        return 0.0
-    first, here = atan2(y - cy, x - cx), atan2(point[1] - cy, point[0] - cx)
-    ahead = (int(piece.turn) * (here - first)) % (2.0 * pi)
-    sweep = abs(piece.sweep)
-    if ahead <= sweep:
-        return ahead / sweep
-    return min((0.0, 1.0), key=lambda share: dist(point, piece.point_at(share)))
 
 
 def fitted_contour(contour: Contour, fit: float) -> Contour:

@@ -7,14 +7,14 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 from collections.abc import Set as AbstractSet
-from dataclasses import dataclass, field, replace
+from dataclasses import dataclass, replace
 from math import dist
 from typing import Final
 
 import shapely
 
 from core.geometry.piece import Line, Piece, Point, Turn
-from core.importing.clean_up import LayeredPiece, clean_up, reversed_piece
+from core.importing.clean_up import Cleaned, LayeredPiece, clean_up
 from core.importing.contour import (
     Contour,
     ContourKind,
@@ -85,21 +85,16 @@ class Branch:
 class ContourList:
     """All contours of a drawing: largest first, holes after the contour around them, open ones last.
 
-    `tiny`, `duplicates` and `overlaps` count what clean-up removed, `shared` the pieces that two contours have; `off`
-    is how far a duplicate differs at most, and where.  `notes` are sentences for the operator.
+    `cleaned` counts what clean-up removed; `gap` is the largest gap closed.  `notes` are sentences for the operator.
     """
 
     drawing: Drawing
     options: ImportOptions
     contours: tuple[Contour, ...]
-    tiny: int = 0
-    duplicates: int = 0
-    overlaps: int = 0
-    gap: float = 0.0
-    branches: tuple[Branch, ...] = ()
-    notes: tuple[str, ...] = field(default=())
-    shared: int = 0
-    off: tuple[float, Point] = (0.0, (0.0, 0.0))
+    cleaned: Cleaned
+    gap: float
+    branches: tuple[Branch, ...]
+    notes: tuple[str, ...]
 
     @property
     def unit(self) -> Unit:
@@ -124,26 +119,20 @@ def contours_of(drawing: Drawing, options: ImportOptions, progress: Progress = s
     progress("cleaning", 0, 1)
     cleaned = clean_up(pieces, options.tolerance)
     progress("chaining", 0, 1)
-    result = chained([item.piece for item in cleaned.pieces], options.tolerance)
-    contours = [_contour(chain, cleaned.pieces, options.tolerance) for chain in result.chains]
-    for items in cleaned.closed:
-        loops = chained([item.piece for item in items], options.tolerance)
-        contours += [_contour(chain, items, options.tolerance) for chain in loops.chains]
-    contours = [contour for contour in contours if contour.pieces]
+    groups = [cleaned.pieces, *cleaned.closed]
+    results = [chained([item.piece for item in items], options.tolerance) for items in groups]
+    chains = ((chain, items) for items, result in zip(groups, results, strict=True) for chain in result.chains)
+    contours = [contour for each in chains if (contour := _contour(*each, options.tolerance)).pieces]
     progress("nesting", 0, 1)
     ordered = _with_open_gaps(_nested(contours), options.program_unit, options.tolerance)
     return ContourList(
         drawing,
         options,
         tuple(ordered),
-        cleaned.tiny,
-        cleaned.duplicates,
-        cleaned.overlaps,
+        cleaned,
         max((contour.gap for contour in ordered), default=0.0),
-        _branches(result.branches, ordered, options.tolerance),
+        _branches(results[0].branches, ordered, options.tolerance),
         tuple(notes),
-        cleaned.shared,
-        cleaned.off,
     )
 
 
@@ -178,7 +167,7 @@ def _contour(chain: Chain, items: Sequence[LayeredPiece], tolerance: float) -> C
     """Join a chain into a contour without a number; an open one starts at its lower left end."""
     rows = [items[link.row] for link in chain.links]
     pieces = [
-        item.piece if link.forward else reversed_piece(item.piece) for item, link in zip(rows, chain.links, strict=True)
+        item.piece if link.forward else item.piece.reversed() for item, link in zip(rows, chain.links, strict=True)
     ]
     joined = joined_chain(pieces, closed=chain.closed, tolerance=tolerance)
     lengths: dict[str, float] = {}
@@ -239,15 +228,12 @@ def _nested(contours: Sequence[Contour]) -> list[Contour]:
     crossed = crossings([contour.pieces for contour in closed], MAX_CROSSING_CHECK)
     areas = [contour.area for contour in closed]
     parents = [min(outer, key=areas.__getitem__, default=None) for outer in inside]
-    children: dict[int | None, list[int]] = {}
-    for row, parent in enumerate(parents):
-        children.setdefault(parent, []).append(row)
-    order: list[int] = []
-    waiting = list(reversed(children.get(None, [])))
-    while waiting:
-        row = waiting.pop()
-        order.append(row)
-        waiting += reversed(children.get(row, []))
+
+    def lineage(row: int) -> tuple[int, ...]:
+        parent = parents[row]
+        return (row,) if parent is None else (*lineage(parent), row)
+
+    order = sorted(range(len(closed)), key=lineage)
     numbers = {row: number for number, row in enumerate(order, 1)}
     listed = []
     for row in order:

@@ -16,13 +16,10 @@ from math import atan2, ceil, cos, floor, hypot, pi, tau
 from typing import Final, Protocol, TypeVar
 
 import numpy as np
-from numpy.typing import NDArray
 
+from core.geometry.path import Floats, Points
 from core.geometry.piece import Arc, Line, Piece, Turn, point_of
 from core.importing.drawing import BSpline, EllipseArc
-
-Points = NDArray[np.complex128]
-Floats = NDArray[np.float64]
 
 SAMPLE_FRACTIONS: Final = np.linspace(0.0, 1.0, 25)
 """Where the distance of a biarc from the curve is sampled, as fractions of its parameter range in each span."""
@@ -446,25 +443,22 @@ def biarc(start: complex, end: complex, first: complex, last: complex) -> list[P
     if length <= 0.0:
         return [_line(start, end)]
     joint = (start + first * length + end - last * length) / 2.0
-    return [_tangent_arc(start, joint, first), _tangent_arc(end, joint, -last, backwards=True)]
+    return [_tangent_arc(start, joint, first), _tangent_arc(end, joint, -last).reversed()]
 
 
 def _dot(u: complex, v: complex) -> float:
     return u.real * v.real + u.imag * v.imag
 
 
-def _tangent_arc(start: complex, end: complex, tangent: complex, *, backwards: bool = False) -> Piece:
+def _tangent_arc(start: complex, end: complex, tangent: complex) -> Piece:
     """Return the arc that leaves `start` along a tangent and reaches `end`; a line if its radius would be too large."""
     chord = end - start
     normal = tangent * 1j
     side = 2.0 * _dot(chord, normal)
     if abs(side) * MAX_RADIUS <= abs(chord) ** 2:
-        return _line(end, start) if backwards else _line(start, end)
+        return _line(start, end)
     center = start + normal * (abs(chord) ** 2 / side)
-    turn = 1 if side > 0.0 else -1
-    if backwards:
-        return Arc(point_of(end), point_of(start), point_of(center), Turn(-turn))
-    return Arc(point_of(start), point_of(end), point_of(center), Turn(turn))
+    return Arc(point_of(start), point_of(end), point_of(center), Turn.CCW if side > 0.0 else Turn.CW)
 
 
 def _line(start: complex, end: complex) -> Line:

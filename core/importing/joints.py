@@ -8,13 +8,14 @@ of the arc, or the midpoint between the two ends.  An arc keeps its center if it
 from __future__ import annotations
 
 from collections.abc import Sequence
+from dataclasses import replace
 from math import atan2, dist, radians
 from typing import Final, NamedTuple
 
 from core.geometry.carrier import carriers_meet
 from core.geometry.construct import OnePoint, center_by_sweep, even_arc
 from core.geometry.piece import Arc, Line, Piece, Point
-from core.importing.clean_up import is_circle, reversed_piece
+from core.importing.clean_up import is_circle
 from core.tolerance import JOINED, ON_PATH
 
 MIN_CROSSING_ANGLE: Final = radians(5.0)
@@ -30,10 +31,12 @@ class Joined(NamedTuple):
 
 def joined_chain(pieces: Sequence[Piece], *, closed: bool, tolerance: float) -> Joined:
     """Return the pieces, given in order and direction of travel, joined end to start."""
-    if len(pieces) == 1 and (is_circle(pieces[0]) or not closed):
-        return Joined(tuple(pieces), 0.0)
     if len(pieces) == 1:
-        return _closed_arc(pieces[0])
+        piece = pieces[0]
+        if closed and isinstance(piece, Arc) and not is_circle(piece):
+            # its ends are one point: it is a full circle
+            return Joined((replace(piece, end=piece.start),), dist(piece.start, piece.end))
+        return Joined((piece,), 0.0)
     pairs = list(zip(pieces, (*pieces[1:], pieces[0]), strict=True))
     joints = [_joint(first, second, tolerance) for first, second in pairs]
     gaps = [dist(first.end, second.start) for first, second in pairs]
@@ -43,14 +46,6 @@ def joined_chain(pieces: Sequence[Piece], *, closed: bool, tolerance: float) -> 
     moved = [_between(piece, start, end) for piece, start, end in zip(pieces, starts, joints, strict=True)]
     kept = [piece for piece in moved if is_circle(piece) or dist(piece.start, piece.end) > 0.0]
     return Joined(tuple(kept), max(gaps))
-
-
-def _closed_arc(piece: Piece) -> Joined:
-    """Make an arc whose ends are one point a full circle; a line has nothing to close."""
-    gap = dist(piece.start, piece.end)
-    if isinstance(piece, Arc):
-        return Joined((Arc(piece.start, piece.start, piece.center, piece.turn),), gap)
-    return Joined((piece,), 0.0)
 
 
 def _joint(first: Piece, second: Piece, tolerance: float) -> Point:
@@ -94,4 +89,4 @@ def _between(piece: Piece, start: Point, end: Point) -> Piece:
 
 def reversed_pieces(pieces: Sequence[Piece]) -> tuple[Piece, ...]:
     """Return a joined chain traveled the other way."""
-    return tuple(reversed_piece(piece) for piece in reversed(pieces))
+    return tuple(piece.reversed() for piece in reversed(pieces))

@@ -104,7 +104,7 @@ def table(rows: Sequence[Row], unit: Unit) -> Iterator[str]:
 
 def sentences(listed: ContourList, unit: Unit) -> Iterator[str]:
     """Yield a sentence for each result of reading, clean-up and chaining; every change of the drawing has one."""
-    drawing, options = listed.drawing, listed.options
+    drawing, options, cleaned = listed.drawing, listed.options, listed.cleaned
     yield from listed.notes
     if drawing.skipped:
         yield f"skipped: {counted(drawing.skipped)}."
@@ -112,16 +112,16 @@ def sentences(listed: ContourList, unit: Unit) -> Iterator[str]:
         layers = ", ".join(f"{count} on {layer}" for layer, count in drawing.hidden.items())
         yield f"frozen, off or invisible, not taken: {layers}."
     tolerance = length_text(options.tolerance, unit)
-    if listed.tiny:
-        yield f"{_were(listed.tiny, 'piece', f'shorter than TOLERANCE {tolerance}')} dropped."
-    if listed.duplicates:
-        off, at = listed.off
+    if cleaned.tiny:
+        yield f"{_were(cleaned.tiny, 'piece', f'shorter than TOLERANCE {tolerance}')} dropped."
+    if cleaned.duplicates:
+        off, at = cleaned.off
         most = f", off by up to {_gap_text(off, unit)} at {_place(at, unit)}" if off > SAME_POINT else ""
-        yield f"{_were(listed.duplicates, 'equal piece')} dropped{most}."
-    if listed.overlaps:
-        yield f"{_were(listed.overlaps, 'overlapping piece')} joined."
-    if listed.shared:
-        yield f"{_were(listed.shared, 'piece', 'drawn twice')} kept for two contours."
+        yield f"{_were(cleaned.duplicates, 'equal piece')} dropped{most}."
+    if cleaned.overlaps:
+        yield f"{_were(cleaned.overlaps, 'overlapping piece')} joined."
+    if cleaned.shared:
+        yield f"{_were(cleaned.shared, 'piece', 'drawn twice')} kept for two contours."
     yield f"largest gap {_gap_text(listed.gap, unit)}."
     for branch in listed.branches:
         yield f"branch at {_place(branch.at, unit)}: {branch.ways - 1} ways."

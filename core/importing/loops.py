@@ -13,7 +13,7 @@ from math import atan2, tau
 from typing import Final, NamedTuple
 
 from core.geometry.piece import Arc, Line, Piece, Point
-from core.importing.clean_up import is_circle, reversed_piece
+from core.importing.clean_up import is_circle
 from core.importing.nesting import signed_area
 from core.importing.nodes import KEY_DECIMALS, Groups, Nodes, nodes_of
 
@@ -45,22 +45,20 @@ class Chain:
 class Chained:
     """All chains; `branches` are the points where more than two ends meet, with their number."""
 
-    chains: list[Chain] = field(default_factory=list)
-    branches: list[tuple[Point, int]] = field(default_factory=list)
+    chains: list[Chain]
+    branches: list[tuple[Point, int]]
 
 
 def chained(pieces: Sequence[Piece], tolerance: float) -> Chained:
     """Chain the pieces, which are in an order that does not depend on the drawing's."""
-    result = Chained()
     rows = [row for row, piece in enumerate(pieces) if not is_circle(piece)]
-    result.chains += [Chain([Link(row, True)], True) for row, piece in enumerate(pieces) if is_circle(piece)]
+    chains = [Chain([Link(row, True)], True) for row, piece in enumerate(pieces) if is_circle(piece)]
     curves = [pieces[row] for row in rows]
     nodes = nodes_of(curves, tolerance)
     for chain in _Chainer(curves, nodes).run():
-        result.chains.append(Chain([Link(rows[link.row], link.forward) for link in chain.links], chain.closed))
+        chains.append(Chain([Link(rows[link.row], link.forward) for link in chain.links], chain.closed))
     crowded = [(nodes.places[node], nodes.degree(node)) for node in range(len(nodes.places)) if nodes.degree(node) > 2]
-    result.branches = sorted(crowded)
-    return result
+    return Chained(chains, sorted(crowded))
 
 
 @dataclass(slots=True)
@@ -89,7 +87,7 @@ class _Chainer:
 
     def _direction(self, link: Link) -> tuple[float, float, int]:
         """Return the sort key of a link: its direction from its first node, then how it bends to the left."""
-        piece = self.pieces[link.row] if link.forward else reversed_piece(self.pieces[link.row])
+        piece = self.pieces[link.row] if link.forward else self.pieces[link.row].reversed()
         dx, dy = piece.direction_at(piece.start)
         direction = atan2(dy, dx) % tau
         if tau - direction < SAME_DIRECTION:

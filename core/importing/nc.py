@@ -167,9 +167,10 @@ def _tangent(first: Piece, second: Piece) -> bool:
 
 
 def _center_passes(result: ControlRun, center: CenterPathTool) -> Iterator[NcContour]:
-    """Yield the contours of a program of the tool center."""
+    """Yield the contours of a program of the tool center: runs of feed moves in XY, with no rapid or plunge between."""
     moves, radius = result.moves, to_mm(center.diameter, result.unit) / 2.0
-    for first, last in _feed_runs(moves):
+    for rows in runs_of(moves.moving_in(Plane.XY) & ~moves.rapid):
+        first, last = int(rows[0]) - 1, int(rows[-1]) + 1
         cuts = list(_cuts(moves.part(first, last)))
         if center.side is None:
             yield _contour(cuts, None, None, result, first)
@@ -178,12 +179,6 @@ def _center_passes(result: ControlRun, center: CenterPathTool) -> Iterator[NcCon
             surface, needed = offset_back(part, center.side, radius)
             contour = _contour(surface, center.side, radius, result, first)
             yield replace(contour, lookahead=needed, notes=notes)
-
-
-def _feed_runs(moves: Moves) -> Iterator[tuple[int, int]]:
-    """Yield the rows (of the start, after the last) of feed moves in XY with no rapid or plunge between them."""
-    for rows in runs_of(moves.moving_in(Plane.XY) & ~moves.rapid):
-        yield int(rows[0]) - 1, int(rows[-1]) + 1
 
 
 def _grouped(passes: Sequence[NcContour]) -> list[NcContour]:
@@ -202,11 +197,9 @@ def _same(first: NcContour, second: NcContour) -> bool:
     if first.side is not second.side or len(first.cuts) != len(second.cuts):
         return False
     return all(
-        type(first_cut.piece) is type(second_cut.piece)
-        and dist(first_cut.piece.start, second_cut.piece.start) <= SAME_CONTOUR
-        and dist(first_cut.piece.point_at(0.5), second_cut.piece.point_at(0.5)) <= SAME_CONTOUR
-        and dist(first_cut.piece.end, second_cut.piece.end) <= SAME_CONTOUR
-        for first_cut, second_cut in zip(first.cuts, second.cuts, strict=True)
+        type(piece) is type(other)
+        and all(dist(piece.point_at(share), other.point_at(share)) <= SAME_CONTOUR for share in (0.0, 0.5, 1.0))
+        for piece, other in zip(first.pieces, second.pieces, strict=True)
     )
 
 

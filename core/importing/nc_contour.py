@@ -5,7 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass, replace
 from itertools import pairwise
 from math import dist
-from typing import Final, NamedTuple
+from typing import Any, Final, NamedTuple
 
 from core.controls.control_tools import ToolId
 from core.geometry.piece import Piece, Side
@@ -124,38 +124,33 @@ def _block(number: int, contour: NcContour, program: Program) -> ImportedBlock:
 
 def _with_values(block: Block, contour: NcContour, unit: Unit, notes: list[str]) -> Block:
     """Return the block with the program's side, tool, speed, feeds, heights and depths."""
-    side = contour.side
-    comp = CutterComp.ON if side is None else CutterComp.LEFT if side is Side.LEFT else CutterComp.RIGHT
-    block = replace(block, cutter_comp=comp)
-    if contour.tool:
-        block = replace(block, tool=Number(float(contour.tool)))
-    if contour.lookahead is not None:
-        block = replace(block, lookahead=Number(float(contour.lookahead)))
-    if contour.speed:
-        block = replace(block, speed=Number(contour.speed))
+    comp = CutterComp.ON if contour.side is None else CutterComp(contour.side.value)
+    values: dict[str, Any] = {"cutter_comp": comp, **_depths(contour, unit, notes)}
+    for name, value in (("tool", contour.tool), ("lookahead", contour.lookahead), ("speed", contour.speed)):
+        if value:
+            values[name] = Number(float(value))
     if contour.plunge_feed:
-        block = replace(block, plunge_feed=_typed(contour.plunge_feed, unit, 3))
-    return _with_feeds_and_heights(_with_depths(block, contour, unit, notes), contour, unit)
+        values["plunge_feed"] = _typed(contour.plunge_feed, unit, 3)
+    return _with_feeds_and_heights(replace(block, **values), contour, unit)
 
 
 def _typed(value: float, unit: Unit, decimals: int) -> Number:
     return Number(round(from_mm(value, unit), decimals) + 0.0)
 
 
-def _with_depths(block: Block, contour: NcContour, unit: Unit, notes: list[str]) -> Block:
-    """Set Z BOTTOM to the lowest depth, and PECK DEPTH to the step between depths if it is even."""
+def _depths(contour: NcContour, unit: Unit, notes: list[str]) -> dict[str, Number]:
+    """Return the lowest depth as Z BOTTOM and, if the step between depths is even, PECK DEPTH and Z START."""
     falling = list(dict.fromkeys(round(depth, 4) for depth in contour.depths))
-    bottom = min(falling)
-    block = replace(block, z_bottom=_typed(bottom, unit, 4))
+    bottom = {"z_bottom": _typed(min(falling), unit, 4)}
     steps = [above - below for above, below in pairwise(falling)]
     if not steps:
-        return block
+        return bottom
     if min(steps) > 0.0 and max(steps) - min(steps) <= 2.0 * SAME_HEIGHT:
         top = falling[0] + steps[0]
-        return replace(block, peck_depth=_typed(steps[0], unit, 4), z_start=_typed(top, unit, 4))
+        return bottom | {"peck_depth": _typed(steps[0], unit, 4), "z_start": _typed(top, unit, 4)}
     depths = ", ".join(f"{from_mm(depth, unit):.4f}" for depth in falling)
     notes.append(f"The depths {depths} are not even steps: PECK DEPTH is not set.")
-    return block
+    return bottom
 
 
 def _with_feeds_and_heights(block: Block, contour: NcContour, unit: Unit) -> Block:

@@ -16,7 +16,7 @@ from core.comp.lookahead import MAX_LOOKAHEAD, MIN_LOOKAHEAD, calculated
 from core.controls.compared_contours import Parting, apart
 from core.geometry.carrier import carriers_meet
 from core.geometry.path import Path
-from core.geometry.piece import Arc, Line, Piece, Side
+from core.geometry.piece import Arc, Line, Piece, Point, Side
 from core.importing.joints import joined_chain
 from core.importing.nc_contour import Cut, NcError
 from core.tolerance import CLOSED, JOINED
@@ -113,7 +113,7 @@ def _to_corner(first: Cut, second: Cut) -> tuple[Cut, list[Cut], Cut]:
     if near:
         at = min(near, key=lambda point: dist(point, here) + dist(point, there))
         return first._replace(piece=replace(before, end=at)), [], second._replace(piece=replace(after, start=at))
-    tangents = [_tangent_line(before, end=True), _tangent_line(after, end=False)]
+    tangents = [_tangent_line(before, here), _tangent_line(after, there)]
     meetings = carriers_meet(*tangents)
     if not meetings or max(dist(meetings[0], here), dist(meetings[0], there)) > reach:
         raise NcError(f"Line {second.line}: two pieces of the contour do not meet; no contour has this path.")
@@ -126,13 +126,10 @@ def _to_corner(first: Cut, second: Cut) -> tuple[Cut, list[Cut], Cut]:
     return first, [first._replace(piece=Line(here, at)), second._replace(piece=Line(at, there))], second
 
 
-def _tangent_line(piece: Piece, *, end: bool) -> Line:
-    """Return a line of length 1 along a piece, from its end or to its start."""
-    if end:
-        (x, y), (dx, dy) = piece.end, piece.direction_at(piece.end)
-        return Line((x, y), (x + dx, y + dy))
-    (x, y), (dx, dy) = piece.start, piece.direction_at(piece.start)
-    return Line((x - dx, y - dy), (x, y))
+def _tangent_line(piece: Piece, at: Point) -> Line:
+    """Return the tangent of a piece at one of its points, as a line of length 1."""
+    (x, y), (dx, dy) = at, piece.direction_at(at)
+    return Line(at, (x + dx, y + dy))
 
 
 def _proved(contour: Sequence[Cut], cuts: Sequence[Cut], side: Side, radius: float, *, closed: bool) -> int | None:

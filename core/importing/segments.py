@@ -11,7 +11,7 @@ from math import degrees, dist
 from typing import Final
 
 from core.finding import Severity
-from core.geometry.piece import Arc, Line, Piece, Point, Side, Turn
+from core.geometry.piece import Arc, Line, Piece, Point, Turn
 from core.importing.contour import Contour
 from core.program.edit import new_block
 from core.program.fields import LARGEST_LENGTH
@@ -129,12 +129,9 @@ def _block(contour: Contour, program: Program, decimals: int) -> Block:
         last = row == len(contour.pieces) - 1
         end = start if last and contour.closed else _typed(piece.end, unit, decimals)
         segments.append(_segment(piece, end, unit, decimals))
-    side = contour.side
-    comp = CutterComp.ON if side is None else CutterComp.LEFT if side is Side.LEFT else CutterComp.RIGHT
-    block = new_block(program)
-    return replace(
-        block, cutter_comp=comp, x_start=Number(start[0]), y_start=Number(start[1]), segments=tuple(segments)
-    )  # fmt: skip
+    comp = CutterComp.ON if contour.side is None else CutterComp(contour.side.value)
+    x, y = map(Number, start)
+    return replace(new_block(program), cutter_comp=comp, x_start=x, y_start=y, segments=tuple(segments))
 
 
 def _start(contour: Contour, unit: Unit, decimals: int) -> Point:

@@ -13,7 +13,6 @@ from pathlib import Path
 from typing import Any
 
 from core.geometry.piece import Arc, Line, Piece, Point, Turn
-from core.importing.clean_up import reversed_piece
 from core.importing.contours import ContourList, ImportOptions, contours_of
 from core.importing.drawing import DrawingUnit
 from core.importing.dxf import read_dxf
@@ -99,7 +98,7 @@ def entity(piece: Piece, decimals: int = 12) -> list[tuple[int, object]]:
         return line(_rounded(piece.start, decimals), _rounded(piece.end, decimals))
     if piece.start == piece.end:
         return circle(_rounded(piece.center, decimals), round(piece.radius, decimals))
-    forward = piece if piece.turn is Turn.CCW else reversed_piece(piece)
+    forward = piece if piece.turn is Turn.CCW else piece.reversed()
     assert isinstance(forward, Arc)
     (cx, cy) = forward.center
     angles = [degrees(atan2(y - cy, x - cx)) for x, y in (forward.start, forward.end)]

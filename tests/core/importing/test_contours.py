@@ -13,7 +13,7 @@ import shapely
 from core.geometry.chords import chords_of
 from core.geometry.path import Path
 from core.geometry.piece import Arc, Line, Piece, Turn
-from core.importing.clean_up import LayeredPiece, clean_up, reversed_piece
+from core.importing.clean_up import LayeredPiece, clean_up
 from core.importing.contour import (
     ContourKind,
     fitted_contour,
@@ -68,7 +68,7 @@ def test_shuffled_and_reversed_copies_give_the_same_chain(first_seed: int) -> No
     for seed in range(first_seed, first_seed + 20):
         pieces = random_contour(seed)
         rng = random.Random(f"order of {seed}")
-        copy = [reversed_piece(piece) if rng.random() < 0.5 else piece for piece in pieces]
+        copy = [piece.reversed() if rng.random() < 0.5 else piece for piece in pieces]
         rng.shuffle(copy)
         original, shuffled = (listed(dxf(*map(entity, each))).contours for each in (pieces, copy))
         assert len(original) == 1, seed
@@ -262,7 +262,7 @@ def test_contours_joined_in_the_list_are_numbered_again() -> None:
 
 def test_duplicate_and_overlapping_arcs_are_joined() -> None:
     drawing = listed(dxf(arc((0, 0), 10, 0, 180), arc((0, 0), 10, 0, 180), arc((0, 0), 10, 150, 360)))
-    assert (drawing.duplicates, drawing.overlaps) == (1, 1)
+    assert (drawing.cleaned.duplicates, drawing.cleaned.overlaps) == (1, 1)
     assert drawing.contours[0].circle == pytest.approx(10.0)
 
 
@@ -284,7 +284,7 @@ def test_overlapping_arcs_on_random_circles_are_joined_wherever_they_begin() -> 
         radius = rng.choice([4.0, 10.0, 12.0, 0.28])
         both = arc(center, radius, begin, begin + middle + 10), arc(center, radius, begin + middle, begin + end)
         drawing = listed(dxf(*both))
-        assert (len(drawing.contours), drawing.overlaps) == (1, 1)
+        assert (len(drawing.contours), drawing.cleaned.overlaps) == (1, 1)
         assert drawing.contours[0].length == pytest.approx(math.radians(end) * radius, abs=1e-4)
 
 
@@ -300,26 +300,26 @@ def test_a_line_over_the_joint_of_two_collinear_lines_joins_both(stray: list[tup
     _, *sides = square(0, 0, 10)
     drawing = listed(dxf(line((0, 0), (5, 0)), line((5, 0), (10, 0)), *sides, stray))
     assert [(contour.closed, contour.drawn) for contour in drawing.contours] == [(True, 4)]
-    assert drawing.overlaps == 2
+    assert drawing.cleaned.overlaps == 2
 
 
 def test_ten_thousand_copies_of_a_line_are_dropped() -> None:
     drawing = listed(dxf(*([line((0, 0), (10, 0))] * 10_000)))
-    assert (len(drawing.contours), drawing.duplicates) == (1, 9_999)
+    assert (len(drawing.contours), drawing.cleaned.duplicates) == (1, 9_999)
 
 
 @pytest.mark.parametrize(("begin", "end"), [(4.0, 9.996), (0.004, 6.0), (9.996, 4.0), (6.0, 0.004)])
 def test_a_line_on_a_longer_one_leaves_the_ends_of_the_longer_one(begin: float, end: float) -> None:
     drawing = listed(dxf(line((0, 0), (10, 0)), line((begin, 0), (end, 0))))
     (piece,) = drawing.contours[0].pieces
-    assert (drawing.overlaps, sorted([piece.start, piece.end])) == (1, [(0.0, 0.0), (10.0, 0.0)])
+    assert (drawing.cleaned.overlaps, sorted([piece.start, piece.end])) == (1, [(0.0, 0.0), (10.0, 0.0)])
 
 
 def test_two_contours_may_share_part_of_a_wall() -> None:
     inner = [line((2, 0), (8, 0)), line((8, 0), (8, 5)), line((8, 5), (2, 5)), line((2, 5), (2, 0))]
     drawing = listed(dxf(*square(0, 0, 10), *inner))
     assert [contour.drawn for contour in drawing.contours if contour.closed] == [4, 4]
-    assert drawing.overlaps == 0
+    assert drawing.cleaned.overlaps == 0
 
 
 def rectangle(x: float, y: float) -> list[tuple[int, object]]:
@@ -334,7 +334,7 @@ def test_closed_polylines_that_share_edges_stay_closed(columns: int, rows: int) 
         drawing = listed(dxf(*entities))
         assert [(contour.closed, contour.drawn) for contour in drawing.contours] == [(True, 4)] * (columns * rows)
         assert drawing.branches == ()
-        assert drawing.duplicates == (0 if len(entities) == len(cells) else 5)
+        assert drawing.cleaned.duplicates == (0 if len(entities) == len(cells) else 5)
 
 
 @pytest.mark.parametrize(
@@ -363,7 +363,7 @@ def test_outlines_of_lines_that_share_edges_stay_closed(columns: int, rows: int,
     drawing = listed(dxf(*entities))
     assert [(contour.closed, contour.drawn) for contour in drawing.contours] == [(True, 4)] * (columns * rows)
     inner = (columns - 1) * rows + columns * (rows - 1)
-    assert (drawing.shared, drawing.duplicates) == (inner, len(entities) * (times - 1) // times)
+    assert (drawing.cleaned.shared, drawing.cleaned.duplicates) == (inner, len(entities) * (times - 1) // times)
 
 
 def test_outlines_of_arcs_and_lines_share_an_arc() -> None:
@@ -377,10 +377,10 @@ def test_outlines_of_arcs_and_lines_share_an_arc() -> None:
 def test_a_line_outline_keeps_its_edge_on_a_closed_polyline() -> None:
     drawing = listed(dxf(rectangle(0, 0), *square(40, 0, 30)))
     assert [(contour.closed, contour.drawn) for contour in drawing.contours] == [(True, 4)] * 2
-    assert (drawing.shared, drawing.duplicates) == (1, 0)
+    assert (drawing.cleaned.shared, drawing.cleaned.duplicates) == (1, 0)
     lines = [line(a, b) for a, b in itertools.pairwise([(0, 0), (40, 0), (40, 30), (0, 30), (0, 0)])]
     drawing = listed(dxf(rectangle(0, 0), *lines))
-    assert (len(drawing.contours), drawing.shared, drawing.duplicates) == (1, 0, 4)
+    assert (len(drawing.contours), drawing.cleaned.shared, drawing.cleaned.duplicates) == (1, 0, 4)
 
 
 @pytest.mark.parametrize(
@@ -396,7 +396,7 @@ def test_a_contour_keeps_the_edge_that_runs_near_another_contour(
     inner = [line(start, end) for start, end in itertools.pairwise([*corners, corners[0]])]
     drawing = listed(dxf(*square(0, 0, 10), *inner))
     assert [contour.area for contour in drawing.contours] == pytest.approx([100.0, area], abs=1e-3)
-    assert (drawing.duplicates, drawing.off[0]) == (0, 0.0)
+    assert (drawing.cleaned.duplicates, drawing.cleaned.off[0]) == (0, 0.0)
 
 
 @pytest.mark.parametrize(
@@ -405,13 +405,13 @@ def test_a_contour_keeps_the_edge_that_runs_near_another_contour(
 def test_a_copy_near_its_original_is_dropped(copy: list[list[tuple[int, object]]], count: int) -> None:
     drawing = listed(dxf(*square(0, 0, 10), *copy))
     assert [(contour.closed, contour.drawn) for contour in drawing.contours] == [(True, 4)]
-    assert (drawing.duplicates, drawing.off[0]) == pytest.approx((count, 0.005))
+    assert (drawing.cleaned.duplicates, drawing.cleaned.off[0]) == pytest.approx((count, 0.005))
 
 
 def test_a_doubled_drawing_keeps_its_dividing_line() -> None:
     drawing = listed(dxf(*([*square(0, 0, 10), line((0, 0), (10, 10))] * 2)))
     assert [(contour.closed, contour.drawn) for contour in drawing.contours] == [(True, 4), (False, 1)]
-    assert (drawing.shared, drawing.duplicates) == (0, 5)
+    assert (drawing.cleaned.shared, drawing.cleaned.duplicates) == (0, 5)
 
 
 def test_an_inserted_block_beside_itself_shares_an_edge() -> None:
@@ -422,12 +422,12 @@ def test_an_inserted_block_beside_itself_shares_an_edge() -> None:
 
 def test_a_polyline_out_and_back_is_one_line() -> None:
     drawing = listed(dxf(polyline((0, 0), (10, 0)), rectangle(0, 0)))
-    assert (drawing.duplicates, [contour.closed for contour in drawing.contours]) == (1, [True])
+    assert (drawing.cleaned.duplicates, [contour.closed for contour in drawing.contours]) == (1, [True])
 
 
 def test_a_curve_of_pieces_shorter_than_the_tolerance_is_kept() -> None:
     drawing = listed(circle_of_lines(400, 0.5))
-    assert (drawing.tiny, [contour.drawn for contour in drawing.contours]) == (0, [400])
+    assert (drawing.cleaned.tiny, [contour.drawn for contour in drawing.contours]) == (0, [400])
     assert listed(circle_of_lines(3000), tolerance=2.0).contours[0].drawn == 3000
 
 
@@ -436,7 +436,7 @@ def test_a_point_within_a_curve_of_short_pieces_is_dropped() -> None:
     corners = [(0.0, 0.0), (0.004, 0.0), (0.008, 0.001), (0.012, 0.004), (5.0, 0.0), (0.0, 5.0), (0.0, 0.0)]
     lines = [line(start, end) for start, end in itertools.pairwise(corners)]
     result = listed(dxf(*lines, line(corners[2], corners[2])))
-    assert (len(result.contours), result.tiny) == (1, 1)
+    assert (len(result.contours), result.cleaned.tiny) == (1, 1)
     assert result.contours[0].closed
 
 
@@ -445,7 +445,7 @@ def test_a_sliver_within_a_curve_of_short_pieces_is_dropped(sliver: float) -> No
     corners = [(0.009 * k, 0.0) for k in range(4)]
     corners += [(0.027, sliver), *((0.027 + 0.009 * k, sliver) for k in range(1, 4)), (5.0, 0.0), (0.0, 5.0)]
     result = listed(dxf(*(line(start, end) for start, end in itertools.pairwise([*corners, corners[0]]))))
-    assert (result.tiny, result.branches) == (1, ())
+    assert (result.cleaned.tiny, result.branches) == (1, ())
     assert [(contour.closed, contour.drawn) for contour in result.contours] == [(True, 9)]
 
 

@@ -52,7 +52,12 @@ def test_a_sample_drawing_has_the_contours_in_the_table(case: dict[str, float]) 
         case.get("length", sum(contour.length for contour in closed)), abs=1e-6
     )
     assert first.area == pytest.approx(case.get("area", first.area), abs=1e-6)
-    counts = (listed_contours.tiny, listed_contours.duplicates, listed_contours.overlaps, len(listed_contours.branches))
+    counts = (
+        listed_contours.cleaned.tiny,
+        listed_contours.cleaned.duplicates,
+        listed_contours.cleaned.overlaps,
+        len(listed_contours.branches),
+    )
     assert counts == tuple(case.get(name, 0) for name in ("tiny", "duplicates", "overlaps", "branches"))
 
 
@@ -385,7 +390,7 @@ def test_lines_that_overlap_at_an_angle_are_joined() -> None:
     corner, within, beyond, top, left = (7, -3), (22, 17), (37, 37), (67, 77), (7, 77)
     whole = listed(dxf(line(corner, beyond), line(within, top), line(top, left), line(left, corner)))
     (contour,) = whole.contours
-    assert (whole.overlaps, contour.closed) == (1, True)
+    assert (whole.cleaned.overlaps, contour.closed) == (1, True)
     assert contour.length == pytest.approx(100 + 60 + 80)
 
 
@@ -447,7 +452,7 @@ def test_a_closed_spline_of_fit_points_is_skipped_and_reported() -> None:
 
 def test_a_spline_without_length_is_counted_as_too_short() -> None:
     made_list = listed(spline((5, 5), (5, 5), (5, 5), (5, 5)))
-    assert (made_list.tiny, len(made_list.contours)) == (1, 1)
+    assert (made_list.cleaned.tiny, len(made_list.contours)) == (1, 1)
 
 
 def test_an_insert_stretches_a_spline() -> None:
@@ -603,7 +608,7 @@ def test_a_polyline_without_its_end_is_read(version: str) -> None:
     for data in (of_version(version, *tags), binary(version, *tags)):
         drawing = listed(data)
         assert [contour.drawn for contour in drawing.contours] == [2, 1]
-        assert (drawing.drawing.entities, drawing.duplicates) == (3, 2)
+        assert (drawing.drawing.entities, drawing.cleaned.duplicates) == (3, 2)
     inserted = dxf(insert("B", (0, 0)), more=block("B", whole[:-1], line((20, 0), (30, 0))))
     assert [contour.drawn for contour in listed(inserted).contours] == [2, 1]
 
