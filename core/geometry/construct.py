@@ -1,8 +1,7 @@
 """Constructions: points and centers from the dimensions of a drawing, every solution in a documented order.
 
-Plain numbers, millimeters and radians, angles counterclockwise from +X.  `axis` 0 is X and 1 is Y.  Each solution has
-a type: `OnePoint`, `TwoPoints`, `OutOfReach` (too far away), `NotDetermined` (the dimensions do not fix it) and
-`OppositeDirection`.
+Plain numbers, millimeters and radians, angles counterclockwise from +X.  `axis` 0 is X and 1 is Y.  No point, or None,
+means that the dimensions do not fix it; `OutOfReach` that it is too far away.
 """
 
 from __future__ import annotations
@@ -22,35 +21,10 @@ Place = TypeVar("Place", complex, "Points")
 
 
 @dataclass(frozen=True, slots=True)
-class OnePoint:
-    """The only solution."""
-
-    point: Point
-
-
-@dataclass(frozen=True, slots=True)
-class TwoPoints:
-    """Two solutions, in the order that the construction documents."""
-
-    first: Point
-    second: Point
-
-
-@dataclass(frozen=True, slots=True)
 class OutOfReach:
     """No solution: the length or radius would have to be at least `least`."""
 
     least: float
-
-
-@dataclass(frozen=True, slots=True)
-class NotDetermined:
-    """No unique solution: the given dimensions do not fix the point."""
-
-
-@dataclass(frozen=True, slots=True)
-class OppositeDirection:
-    """No solution: it would lie behind the start."""
 
 
 def polar(start: Point, angle: float, length: float) -> Point:
@@ -58,24 +32,21 @@ def polar(start: Point, angle: float, length: float) -> Point:
     return start[0] + length * cos(angle), start[1] + length * sin(angle)
 
 
-def ray_to_coordinate(
-    start: Point, angle: float, axis: int, value: float
-) -> OnePoint | NotDetermined | OppositeDirection:
-    """Find where a ray reaches the coordinate `value`; `NotDetermined` if that coordinate is constant along the ray.
+def ray_to_coordinate(start: Point, angle: float, axis: int, value: float) -> tuple[Point, bool] | None:
+    """Find where a line reaches the coordinate `value`, and whether that is ahead of the start in direction `angle`.
 
-    It is also if only the rounding of the start and the angle makes it change.
+    None if that coordinate is constant along the line, or if only the rounding of the start and the angle makes it
+    change.
     """
     along = (cos(angle), sin(angle))
     rounded = abs(along[axis]) < MIN_INDEPENDENT_SINE and abs(value - start[axis]) <= ARC_RADII
     if rounded or abs(along[axis]) < ANGLE_ROUNDING:
-        return NotDetermined()
+        return None
     travel = (value - start[axis]) / along[axis]
-    if travel < 0.0:
-        return OppositeDirection()
-    return OnePoint(_placed(axis, value, start[1 - axis] + travel * along[1 - axis]))
+    return _placed(axis, value, start[1 - axis] + travel * along[1 - axis]), travel >= 0.0
 
 
-def on_circle(center: Point, radius: float, axis: int, value: float) -> OnePoint | TwoPoints | OutOfReach:
+def on_circle(center: Point, radius: float, axis: int, value: float) -> tuple[Point, ...] | OutOfReach:
     """Find the points of a circle whose coordinate `axis` is `value`, the one with the greater other coordinate first.
 
     A coordinate outside the circle by no more than `ARC_RADII`, or inside by no more than `GRAZE`, gives one point, at
@@ -86,30 +57,30 @@ def on_circle(center: Point, radius: float, axis: int, value: float) -> OnePoint
         return OutOfReach(distance)
     middle = center[1 - axis]
     if radius - distance <= GRAZE:
-        return OnePoint(_placed(axis, value, middle))
+        return (_placed(axis, value, middle),)
     half = sqrt((radius - distance) * (radius + distance))
-    return TwoPoints(_placed(axis, value, middle + half), _placed(axis, value, middle - half))
+    return _placed(axis, value, middle + half), _placed(axis, value, middle - half)
 
 
 def _placed(axis: int, value: float, other: float) -> Point:
     return (value, other) if axis == 0 else (other, value)
 
 
-def centers(start: Point, end: Point, radius: float, turn: Turn) -> OnePoint | TwoPoints | OutOfReach | NotDetermined:
+def centers(start: Point, end: Point, radius: float, turn: Turn) -> tuple[Point, ...] | OutOfReach:
     """Find the centers of arcs from `start` to `end`: first of the arc under half a turn, then of the longer one.
 
     A radius too small by no more than `ARC_RADII`, or too large by no more than `GRAZE`, gives the half circle; equal
-    ends give `NotDetermined`.
+    ends give no center.
     """
     chord = hypot(end[0] - start[0], end[1] - start[1])
     if chord <= ON_PATH:
-        return NotDetermined()
+        return ()
     if chord / 2 > radius + ARC_RADII:
         return OutOfReach(chord / 2)
     if radius - chord / 2 <= GRAZE:
-        return OnePoint(_above(start, end, 0.0))
+        return (_above(start, end, 0.0),)
     height = sqrt((radius - chord / 2) * (radius + chord / 2))
-    return TwoPoints(_above(start, end, turn * height), _above(start, end, -turn * height))
+    return _above(start, end, turn * height), _above(start, end, -turn * height)
 
 
 def _above(start: Point, end: Point, height: float) -> Point:
@@ -119,7 +90,7 @@ def _above(start: Point, end: Point, height: float) -> Point:
     return (start[0] + end[0]) / 2 - dy / chord * height, (start[1] + end[1]) / 2 + dx / chord * height
 
 
-def center_by_sweep(start: Point, end: Point, sweep: float, turn: Turn) -> OnePoint | NotDetermined:
+def center_by_sweep(start: Point, end: Point, sweep: float, turn: Turn) -> Point | None:
     """Find the center of the arc from `start` to `end` that turns by `sweep` (0 < sweep < a full turn) toward `turn`.
 
     Height of the center over the chord c: c / 2 / tan(sweep / 2).
@@ -127,20 +98,20 @@ def center_by_sweep(start: Point, end: Point, sweep: float, turn: Turn) -> OnePo
     chord = hypot(end[0] - start[0], end[1] - start[1])
     half = sin(sweep / 2)
     if chord <= ON_PATH or abs(half) < ANGLE_ROUNDING:
-        return NotDetermined()
-    return OnePoint(_above(start, end, turn * chord / 2 * cos(sweep / 2) / half))
+        return None
+    return _above(start, end, turn * chord / 2 * cos(sweep / 2) / half)
 
 
-def center_by_coordinate(start: Point, end: Point, axis: int, value: float) -> OnePoint | NotDetermined:
+def center_by_coordinate(start: Point, end: Point, axis: int, value: float) -> Point | None:
     """Find the point equally far from `start` and `end` whose coordinate `axis` is `value`.
 
     Not if the chord runs along that axis: rounding of the ends would then decide where the point is.
     """
     across, along = end[1 - axis] - start[1 - axis], end[axis] - start[axis]
     if abs(across) <= max(CLOSED, MIN_INDEPENDENT_SINE * abs(along)):
-        return NotDetermined()
+        return None
     middle = ((start[0] + end[0]) / 2, (start[1] + end[1]) / 2)
-    return OnePoint(_placed(axis, value, middle[1 - axis] - (value - middle[axis]) * along / across))
+    return _placed(axis, value, middle[1 - axis] - (value - middle[axis]) * along / across)
 
 
 def rotated(point: Point, center: Point, angle: float) -> Point:

@@ -13,7 +13,7 @@ from math import atan2, dist, radians
 from typing import Final, NamedTuple
 
 from core.geometry.carrier import carriers_meet
-from core.geometry.construct import OnePoint, center_by_sweep, even_arc
+from core.geometry.construct import center_by_sweep, even_arc
 from core.geometry.piece import Arc, Line, Piece, Point
 from core.importing.clean_up import is_circle
 from core.tolerance import JOINED, ON_PATH
@@ -84,7 +84,7 @@ def _between(piece: Piece, start: Point, end: Point) -> Piece:
     if arc.end == end and arc.start != arc.end:
         return arc
     center = center_by_sweep(start, end, abs(piece.sweep), piece.turn)
-    return Arc(start, end, center.point, piece.turn) if isinstance(center, OnePoint) else Line(start, end)
+    return Line(start, end) if center is None else Arc(start, end, center, piece.turn)
 
 
 def reversed_pieces(pieces: Sequence[Piece]) -> tuple[Piece, ...]:

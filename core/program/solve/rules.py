@@ -21,11 +21,11 @@ from dataclasses import dataclass, replace
 from decimal import Decimal
 from functools import partial
 from math import degrees, dist, pi, tau
-from typing import Final, assert_never
+from typing import Final
 
 from core.finding import Finding, Severity
 from core.geometry import construct
-from core.geometry.construct import NotDetermined, OnePoint, OppositeDirection, OutOfReach, TwoPoints
+from core.geometry.construct import OutOfReach
 from core.geometry.piece import Arc, Line, Piece, Point, Turn
 from core.program.fields import Form, field_of
 from core.program.solve.reading import ANGLE_FIELDS, measured
@@ -203,21 +203,18 @@ def _along(axis: int, given: Given) -> Outcome | None:
     """Solve a line along XY ANGLE to one end coordinate; None if the angle leaves the end open."""
     start, known = given.start, given.known
     value, angle = known[_END[axis]], known["angle"]
-    end = construct.ray_to_coordinate(start, angle, axis, value)
-    label = f"{'XY'[axis]} END"
-    match end:
-        case OnePoint(point):
-            return _lines(start, point)
-        case construct.NotDetermined() if "length" in known or abs(value - start[axis]) <= ARC_RADII:
+    reached = construct.ray_to_coordinate(start, angle, axis, value)
+    letter = "XY"[axis]
+    if reached is None:
+        if "length" in known or abs(value - start[axis]) <= ARC_RADII:
             return None
-        case construct.NotDetermined():
-            text = f"XY ANGLE {angle_text(angle)} holds {'XY'[axis]} at {{0~1}}: it never reaches {label} {{1~0}}"
-            return contradiction(f"{text}. Correct one of them.", "angle", start[axis], value)
-        case OppositeDirection():
-            text = f"XY ANGLE {angle_text(angle)} leads away from {label} {{0}}. Correct one of them."
-            return contradiction(text, "angle", value)
-        case _:
-            assert_never(end)
+        text = f"XY ANGLE {angle_text(angle)} holds {letter} at {{0~1}}: it never reaches {letter} END {{1~0}}"
+        return contradiction(f"{text}. Correct one of them.", "angle", start[axis], value)
+    end, ahead = reached
+    if not ahead:
+        text = f"XY ANGLE {angle_text(angle)} leads away from {letter} END {{0}}. Correct one of them."
+        return contradiction(text, "angle", value)
+    return _lines(start, end)
 
 
 def _long(axis: int, given: Given) -> Outcome:
@@ -227,12 +224,7 @@ def _long(axis: int, given: Given) -> Outcome:
     if isinstance(ends, OutOfReach):
         text = f"XY LENGTH {{0~2}} does not reach {'XY'[axis]} END {{1}}: it takes at least {{2+}}."
         return contradiction(text, "length", length, value, ends.least)
-    return _lines(given.start, *_points_of(ends))
-
-
-def _points_of(ends: OnePoint | TwoPoints) -> tuple[Point, ...]:
-    """Return the points of a construction, in its documented order."""
-    return (ends.point,) if isinstance(ends, OnePoint) else (ends.first, ends.second)
+    return _lines(given.start, *ends)
 
 
 def _lines(start: Point, *ends: Point) -> Outcome:
@@ -316,7 +308,7 @@ def _center_and_coordinate(axis: int, given: Given) -> Outcome:
     if isinstance(ends, OutOfReach):
         text = f"The arc's radius is {{0}}: it does not reach {'XY'[axis]} END {{1}}."
         return contradiction(text, _END[axis], radius, value)
-    return _about_center(given, *_points_of(ends))
+    return _about_center(given, *ends)
 
 
 def _about_center(given: Given, *ends: Point) -> Outcome:
@@ -387,9 +379,7 @@ def _end_and_radius(given: Given) -> Outcome | None:
     centers = construct.centers(start, end, radius, given.turn)
     if isinstance(centers, OutOfReach):
         return contradiction("RADIUS {0~1} does not reach the end: it takes {1~0}.", "radius", radius, centers.least)
-    if isinstance(centers, NotDetermined):
-        return None
-    return _ordered(*(Arc(start, end, center, given.turn) for center in _points_of(centers)))
+    return _ordered(*(Arc(start, end, center, given.turn) for center in centers)) if centers else None
 
 
 def _end_and_sweep(given: Given) -> Outcome | None:
@@ -400,9 +390,7 @@ def _end_and_sweep(given: Given) -> Outcome | None:
 def _by_sweep(given: Given, *ends: Point) -> Outcome | None:
     """Return the arcs that turn by SWEEP ANGLE to each of the ends."""
     centers = [(end, construct.center_by_sweep(given.start, end, given.known["sweep"], given.turn)) for end in ends]
-    arcs = tuple(
-        Arc(given.start, end, center.point, given.turn) for end, center in centers if isinstance(center, OnePoint)
-    )
+    arcs = tuple(Arc(given.start, end, center, given.turn) for end, center in centers if center is not None)
     return Outcome(arcs) if arcs else None
 
 
@@ -411,11 +399,9 @@ def _end_and_center_coordinate(axis: int, given: Given) -> Outcome | None:
     if _comes_back(start, end):
         return None
     center = construct.center_by_coordinate(start, end, axis, given.known[_CENTER[axis]])
-    if not isinstance(center, OnePoint):
+    if center is None:
         return None
-    return (
-        _no_radius() if dist(start, center.point) <= JOINED else Outcome((Arc(start, end, center.point, given.turn),))
-    )
+    return _no_radius() if dist(start, center) <= JOINED else Outcome((Arc(start, end, center, given.turn),))
 
 
 def _radius_sweep_center(axis: int, given: Given) -> Outcome:
@@ -425,9 +411,7 @@ def _radius_sweep_center(axis: int, given: Given) -> Outcome:
     if isinstance(centers, OutOfReach):
         text = f"RADIUS {{0~2}} does not reach {'XY'[axis]} CENTER {{1}}: it takes at least {{2+}}."
         return contradiction(text, "radius", radius, value, centers.least)
-    return Outcome(
-        tuple(_turned(given.turn, given.start, center, given.known["sweep"]) for center in _points_of(centers))
-    )
+    return Outcome(tuple(_turned(given.turn, given.start, center, given.known["sweep"]) for center in centers))
 
 
 def _radius_sweep_end(axis: int, given: Given) -> Outcome | None:
@@ -439,7 +423,7 @@ def _radius_sweep_end(axis: int, given: Given) -> Outcome | None:
     if isinstance(ends, OutOfReach):
         text = f"RADIUS and SWEEP ANGLE make the end {{0}} from the start: that does not reach {'XY'[axis]} END {{1}}."
         return contradiction(text, _END[axis], chord, given.known[_END[axis]])
-    return _by_sweep(given, *_points_of(ends))
+    return _by_sweep(given, *ends)
 
 
 def _labels(names: tuple[str, ...]) -> str:

@@ -10,7 +10,7 @@ from hypothesis import assume, given, settings
 from hypothesis import strategies as st
 
 from core.geometry import construct
-from core.geometry.construct import NotDetermined, OnePoint, OppositeDirection, OutOfReach, TwoPoints
+from core.geometry.construct import OutOfReach
 from core.geometry.piece import Arc, Point, Turn
 from core.tolerance import ARC_RADII
 
@@ -34,29 +34,34 @@ def test_polar_gives_the_point_at_an_angle_and_distance():
 
 def test_a_ray_reaches_a_coordinate():
     result = construct.ray_to_coordinate((1.0, 1.0), pi / 4, 0, 3.0)
-    assert isinstance(result, OnePoint)
-    assert near(result.point, (3.0, 3.0))
+    assert result is not None
+    assert near(result[0], (3.0, 3.0))
+    assert result[1]
     result = construct.ray_to_coordinate((1.0, 1.0), pi / 6, 1, 2.0)
-    assert isinstance(result, OnePoint)
-    assert near(result.point, (1 + sqrt(3), 2.0))
-    assert result.point[1] == 2.0
+    assert result is not None
+    assert near(result[0], (1 + sqrt(3), 2.0))
+    assert result[0][1] == 2.0
+    assert result[1]
 
 
 def test_a_ray_that_does_not_reach_a_coordinate_gives_the_reason():
-    assert construct.ray_to_coordinate((1.0, 1.0), pi / 2, 0, 1.0) == NotDetermined()
-    assert construct.ray_to_coordinate((1.0, 1.0), pi, 1, 5.0) == NotDetermined()
-    assert construct.ray_to_coordinate((1.0, 1.0), pi / 4, 0, 0.0) == OppositeDirection()
+    assert construct.ray_to_coordinate((1.0, 1.0), pi / 2, 0, 1.0) is None
+    assert construct.ray_to_coordinate((1.0, 1.0), pi, 1, 5.0) is None
+    behind = construct.ray_to_coordinate((1.0, 1.0), pi / 4, 0, 0.0)
+    assert behind is not None
+    assert near(behind[0], (0.0, 0.0))
+    assert not behind[1]
 
 
 def test_on_circle_finds_the_points_at_a_coordinate():
-    assert construct.on_circle((1.0, 1.0), 5.0, 0, 4.0) == TwoPoints((4.0, 5.0), (4.0, -3.0))
-    assert construct.on_circle((1.0, 1.0), 5.0, 1, -2.0) == TwoPoints((5.0, -2.0), (-3.0, -2.0))
-    assert construct.on_circle((1.0, 1.0), 5.0, 0, 6.0) == OnePoint((6.0, 1.0))
+    assert construct.on_circle((1.0, 1.0), 5.0, 0, 4.0) == ((4.0, 5.0), (4.0, -3.0))
+    assert construct.on_circle((1.0, 1.0), 5.0, 1, -2.0) == ((5.0, -2.0), (-3.0, -2.0))
+    assert construct.on_circle((1.0, 1.0), 5.0, 0, 6.0) == ((6.0, 1.0),)
     assert construct.on_circle((1.0, 1.0), 5.0, 0, 7.0) == OutOfReach(6.0)
 
 
 def test_on_circle_accepts_a_coordinate_rounded_outwards():
-    assert construct.on_circle((0.0, 0.0), 5.0, 1, 5.0 + ARC_RADII) == OnePoint((0.0, 5.0 + ARC_RADII))
+    assert construct.on_circle((0.0, 0.0), 5.0, 1, 5.0 + ARC_RADII) == ((0.0, 5.0 + ARC_RADII),)
     assert construct.on_circle((0.0, 0.0), 5.0, 1, 5.01) == OutOfReach(5.01)
 
 
@@ -66,9 +71,15 @@ def test_on_circle_accepts_a_coordinate_rounded_outwards():
 )
 def test_the_center_of_the_shorter_arc_comes_first(turn, first, second):
     result = construct.centers((-4.0, 0.0), (4.0, 0.0), 5.0, turn)
-    assert isinstance(result, TwoPoints)
-    assert near(result.first, first)
-    assert near(result.second, second)
+    assert isinstance(result, tuple)
+    assert len(result) == 2
+    assert near(result[0], first)
+    assert near(result[1], second)
+
+
+def _count(result: tuple[Point, ...] | OutOfReach) -> int:
+    assert isinstance(result, tuple)
+    return len(result)
 
 
 def test_a_typed_chord_equal_to_the_diameter_has_one_center():
@@ -76,17 +87,17 @@ def test_a_typed_chord_equal_to_the_diameter_has_one_center():
     for _ in range(300):
         radius, x = round(rng.uniform(1, 20), 3), round(rng.uniform(-50, 100), 3)
         end = round(x - 2 * radius, 3)
-        assert isinstance(construct.centers((x, 10.0), (end, 10.0), radius, Turn.CCW), OnePoint)
-        assert isinstance(construct.on_circle((x, 10.0), radius, 0, round(x + radius, 3)), OnePoint)
+        assert _count(construct.centers((x, 10.0), (end, 10.0), radius, Turn.CCW)) == 1
+        assert _count(construct.on_circle((x, 10.0), radius, 0, round(x + radius, 3))) == 1
         # one more digit makes two different arcs
-        assert isinstance(construct.centers((x, 10.0), (end, 10.0), radius + 0.0001, Turn.CCW), TwoPoints)
+        assert _count(construct.centers((x, 10.0), (end, 10.0), radius + 0.0001, Turn.CCW)) == 2
 
 
 def test_half_circles_have_one_center_and_short_radii_none():
-    assert construct.centers((-4.0, 0.0), (4.0, 0.0), 4.0, Turn.CW) == OnePoint((0.0, 0.0))
-    assert construct.centers((-4.0, 0.0), (4.0, 0.0), 4.0 - ARC_RADII, Turn.CW) == OnePoint((0.0, 0.0))
+    assert construct.centers((-4.0, 0.0), (4.0, 0.0), 4.0, Turn.CW) == ((0.0, 0.0),)
+    assert construct.centers((-4.0, 0.0), (4.0, 0.0), 4.0 - ARC_RADII, Turn.CW) == ((0.0, 0.0),)
     assert construct.centers((-4.0, 0.0), (4.0, 0.0), 3.9, Turn.CW) == OutOfReach(4.0)
-    assert construct.centers((1.0, 1.0), (1.0, 1.0), 3.9, Turn.CW) == NotDetermined()
+    assert construct.centers((1.0, 1.0), (1.0, 1.0), 3.9, Turn.CW) == ()
 
 
 @laws
@@ -94,13 +105,13 @@ def test_half_circles_have_one_center_and_short_radii_none():
 def test_centers_are_the_radius_away_with_the_shorter_arc_first(start, end, radius, turn):
     assume(dist(start, end) > 0.01)
     match construct.centers(start, end, radius, turn):
-        case TwoPoints(first, second):
+        case (first, second):
             for center in (first, second):
                 assert dist(center, start) == pytest.approx(radius, abs=1e-7)
                 assert dist(center, end) == pytest.approx(radius, abs=1e-7)
             assert abs(Arc(start, end, first, turn).sweep) <= pi + 1e-6
             assert abs(Arc(start, end, second, turn).sweep) >= pi - 1e-6
-        case OnePoint(center):
+        case (center,):
             assert dist(center, start) == pytest.approx(dist(start, end) / 2)
         case OutOfReach(least):
             assert least == dist(start, end) / 2
@@ -111,16 +122,16 @@ def test_centers_are_the_radius_away_with_the_shorter_arc_first(start, end, radi
 
 def test_the_sweep_determines_the_center():
     result = construct.center_by_sweep((1.0, 0.0), (0.0, 1.0), pi / 2, Turn.CCW)
-    assert isinstance(result, OnePoint)
-    assert near(result.point, (0.0, 0.0))
+    assert result is not None
+    assert near(result, (0.0, 0.0))
     result = construct.center_by_sweep((1.0, 0.0), (0.0, 1.0), 3 * pi / 2, Turn.CCW)
-    assert isinstance(result, OnePoint)
-    assert near(result.point, (1.0, 1.0))
+    assert result is not None
+    assert near(result, (1.0, 1.0))
     result = construct.center_by_sweep((1.0, 0.0), (0.0, 1.0), pi / 2, Turn.CW)
-    assert isinstance(result, OnePoint)
-    assert near(result.point, (1.0, 1.0))
-    assert construct.center_by_sweep((1.0, 0.0), (1.0, 0.0), pi, Turn.CW) == NotDetermined()
-    assert construct.center_by_sweep((1.0, 0.0), (0.0, 1.0), tau, Turn.CW) == NotDetermined()
+    assert result is not None
+    assert near(result, (1.0, 1.0))
+    assert construct.center_by_sweep((1.0, 0.0), (1.0, 0.0), pi, Turn.CW) is None
+    assert construct.center_by_sweep((1.0, 0.0), (0.0, 1.0), tau, Turn.CW) is None
 
 
 @laws
@@ -130,8 +141,8 @@ def test_the_center_is_found_again_from_the_sweep(center, radius, angle, sweep, 
     end = construct.rotated(start, center, turn * sweep)
     assert abs(Arc(start, end, center, turn).sweep) == pytest.approx(sweep, abs=1e-9)
     result = construct.center_by_sweep(start, end, sweep, turn)
-    assert isinstance(result, OnePoint)
-    assert near(result.point, center, 1e-7)
+    assert result is not None
+    assert near(result, center, 1e-7)
 
 
 @laws
@@ -141,14 +152,14 @@ def test_the_center_is_found_again_from_one_of_its_coordinates(center, radius, a
     end = construct.rotated(start, center, sweep)
     assume(abs(end[1 - axis] - start[1 - axis]) > 0.01 * dist(start, end))
     result = construct.center_by_coordinate(start, end, axis, center[axis])
-    assert isinstance(result, OnePoint)
-    assert near(result.point, center, 1e-6)
+    assert result is not None
+    assert near(result, center, 1e-6)
 
 
 def test_a_center_coordinate_along_the_chord_determines_nothing():
-    assert construct.center_by_coordinate((0.0, 0.0), (4.0, 0.0), 0, 2.0) == NotDetermined()
-    assert construct.center_by_coordinate((0.0, 0.0), (0.0, 0.0), 0, 2.0) == NotDetermined()
-    assert construct.center_by_coordinate((0.0, 0.0), (4.0, 0.0), 1, 7.0) == OnePoint((2.0, 7.0))
+    assert construct.center_by_coordinate((0.0, 0.0), (4.0, 0.0), 0, 2.0) is None
+    assert construct.center_by_coordinate((0.0, 0.0), (0.0, 0.0), 0, 2.0) is None
+    assert construct.center_by_coordinate((0.0, 0.0), (4.0, 0.0), 1, 7.0) == (2.0, 7.0)
 
 
 def test_even_arc_keeps_a_center_that_fits():
