@@ -54,8 +54,8 @@ class Case:
     """True if inputs may stay blank: for a triangle or an arc, any two are typed."""
 
 
-def _length(name: str, label: str) -> Quantity:
-    return Quantity(name, label, Kind.LENGTH)
+def _lengths(**labels: str) -> tuple[Quantity, ...]:
+    return tuple(Quantity(name, label, Kind.LENGTH) for name, label in labels.items())
 
 
 def _angle(name: str, label: str) -> Quantity:
@@ -250,58 +250,39 @@ def _meetings(first: Locus, second: Locus) -> Answers | Refusal:
     return tuple({"x_meet": x, "y_meet": y} for x, y in met.points)
 
 
-_MEET: Final = (_length("x_meet", "X"), _length("y_meet", "Y"))
-_LINE: Final = (_length("x", "X OF A POINT"), _length("y", "Y OF A POINT"), _angle("angle", "XY ANGLE"))
-_CIRCLE: Final = (_length("x_center", "X CENTER"), _length("y_center", "Y CENTER"), _length("radius", "RADIUS"))
+_MEET: Final = _lengths(x_meet="X", y_meet="Y")
+_LINE: Final = (*_lengths(x="X OF A POINT", y="Y OF A POINT"), _angle("angle", "XY ANGLE"))
+_CIRCLE: Final = _lengths(x_center="X CENTER", y_center="Y CENTER", radius="RADIUS")
 _TRIANGLE: Final = (
-    _length("adjacent", "SIDE AT THE ANGLE"),
-    _length("opposite", "SIDE ACROSS"),
-    _length("hypotenuse", "HYPOTENUSE"),
+    *_lengths(adjacent="SIDE AT THE ANGLE", opposite="SIDE ACROSS", hypotenuse="HYPOTENUSE"),
     _angle("angle", "ANGLE"),
 )
-_ARC: Final = (
-    _length("radius", "RADIUS"),
-    _length("chord", "CHORD"),
-    _length("height", "HEIGHT"),
-    _angle("sweep", "SWEEP ANGLE"),
-)
+_ARC: Final = (*_lengths(radius="RADIUS", chord="CHORD", height="HEIGHT"), _angle("sweep", "SWEEP ANGLE"))
 
 CASES: Final = (
     Case("RIGHT TRIANGLE", _TRIANGLE, _TRIANGLE, _triangle, optional=True),
-    Case("ARC", _ARC, (*_ARC, _length("length", "ARC LENGTH")), _arc, optional=True),
+    Case("ARC", _ARC, (*_ARC, *_lengths(length="ARC LENGTH")), _arc, optional=True),
     Case(
         "TANGENT FROM A POINT",
-        (_length("x", "X OF THE POINT"), _length("y", "Y OF THE POINT"), *_CIRCLE),
-        (
-            _length("x_touch", "X"),
-            _length("y_touch", "Y"),
-            _angle("angle", "XY ANGLE"),
-            _length("length", "XY LENGTH"),
-        ),
+        (*_lengths(x="X OF THE POINT", y="Y OF THE POINT"), *_CIRCLE),
+        (*_lengths(x_touch="X", y_touch="Y"), _angle("angle", "XY ANGLE"), *_lengths(length="XY LENGTH")),
         _tangent,
     ),
     Case(
         "POINT ON A BOLT CIRCLE",
         (
-            _length("x_center", "X CENTER"),
-            _length("y_center", "Y CENTER"),
-            _length("diameter", "DIAMETER"),
+            *_lengths(x_center="X CENTER", y_center="Y CENTER", diameter="DIAMETER"),
             Quantity("count", "HOLES", Kind.COUNT),
             _angle("start_angle", "ANGLE OF HOLE 1"),
             Quantity("hole", "HOLE", Kind.COUNT),
         ),
-        (_length("x_hole", "X"), _length("y_hole", "Y"), _angle("angle", "ANGLE")),
+        (*_lengths(x_hole="X", y_hole="Y"), _angle("angle", "ANGLE")),
         _bolt_circle,
     ),
-    Case(
-        "POINT BY ANGLE AND LENGTH",
-        (*_LINE, _length("length", "XY LENGTH")),
-        (_length("x_end", "X"), _length("y_end", "Y")),
-        _polar,
-    ),
+    Case("POINT BY ANGLE AND LENGTH", (*_LINE, *_lengths(length="XY LENGTH")), _lengths(x_end="X", y_end="Y"), _polar),
     Case(
         "TWO LINES MEET",
-        (*_LINE, _length("x2", "X ON THE SECOND"), _length("y2", "Y ON THE SECOND"), _angle("angle2", "ITS XY ANGLE")),
+        (*_LINE, *_lengths(x2="X ON THE SECOND", y2="Y ON THE SECOND"), _angle("angle2", "ITS XY ANGLE")),
         _MEET,
         _two_lines,
     ),
@@ -310,9 +291,7 @@ CASES: Final = (
         "TWO CIRCLES MEET",
         (
             *_CIRCLE,
-            _length("x_center2", "X CENTER OF THE SECOND"),
-            _length("y_center2", "Y CENTER OF THE SECOND"),
-            _length("radius2", "ITS RADIUS"),
+            *_lengths(x_center2="X CENTER OF THE SECOND", y_center2="Y CENTER OF THE SECOND", radius2="ITS RADIUS"),
         ),
         _MEET,
         _two_circles,
