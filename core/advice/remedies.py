@@ -72,14 +72,15 @@ def _recommended(setup: CuttingSetup, progress: Progress) -> Row | None:
     return None if table.recommended is None else table.row(table.recommended)
 
 
-def without_blends(setup: CuttingSetup) -> CuttingSetup:
-    """Return the setup with BLEND OFFSET 0; the overlap past the start stays."""
-    return replace(setup, blend=0.0)
+def without_blends(setup: CuttingSetup) -> CuttingSetup | None:
+    """Return the setup with BLEND OFFSET 0; the overlap past the start stays.  None if there is no blend anyway."""
+    return replace(setup, blend=0.0) if setup.blend > 0.0 else None
 
 
 def lookahead_without_blends(setup: CuttingSetup, progress: Progress = silent) -> int | None:
     """Return the recommended look-ahead without blend moves; None if none is clean or there is no blend."""
-    row = _recommended(without_blends(setup), progress) if setup.blend > 0.0 else None
+    bare = without_blends(setup)
+    row = None if bare is None else _recommended(bare, progress)
     return None if row is None else row.value
 
 
@@ -88,11 +89,12 @@ def larger_tool_without_blends(setup: CuttingSetup, than: ToolFits | None, progr
 
     `than` is the tool that fits with blends: a tool less than `LARGER_BY` times as large is not offered.
     """
-    if setup.blend <= 0.0:
+    bare = without_blends(setup)
+    if bare is None:
         return None
     given = 0 if than is None else _steps(setup, than.diameter)
     least = 0 if than is None else max(int(given * LARGER_BY), given + 1)
-    return largest_tool(without_blends(setup), progress, least=least)
+    return largest_tool(bare, progress, least=least)
 
 
 def largest_tool(setup: CuttingSetup, progress: Progress = silent, *, least: int = 0) -> ToolFits | None:
@@ -157,13 +159,6 @@ def start_mid_side(setup: CuttingSetup, progress: Progress = silent, max_starts:
             middle = setup.surface[side].point_at(0.5)
             return StartMoved(float(setup.surface.numbers[side]), middle, row.value, row.effect)
     return None
-
-
-def start_mid_side_without_blends(setup: CuttingSetup, progress: Progress) -> StartMoved | None:
-    """Do the same as `start_mid_side` without blend moves; None if the path has none anyway."""
-    if setup.blend <= 0.0:
-        return None
-    return start_mid_side(without_blends(setup), progress, MAX_STARTS_WITHOUT_BLENDS)
 
 
 def start_at_end(setup: CuttingSetup, progress: Progress) -> StartMoved | None:

@@ -8,6 +8,7 @@ from typing import Final
 
 from core.advice.lookahead_table import CuttingSetup, Row, Table
 from core.advice.remedies import (
+    MAX_STARTS_WITHOUT_BLENDS,
     StartMoved,
     larger_tool_without_blends,
     largest_tool,
@@ -16,7 +17,7 @@ from core.advice.remedies import (
     restarted,
     start_at_end,
     start_mid_side,
-    start_mid_side_without_blends,
+    without_blends,
 )
 from core.finding import Finding, Severity
 from core.geometry.piece import Point
@@ -54,8 +55,9 @@ def _remedies(setup: CuttingSetup, table: Table, progress: Progress) -> tuple[Fi
         return _start_at_end_sentence(setup, progress) or (_crossing_first(nearest.verdict.crossing_at),)
     value, start = lookahead_without_blends(setup, progress), start_mid_side(setup, progress)
     remedies = (*_blends_sentence(value), *_start_sentence(start))
-    if not remedies:
-        remedies = _start_sentence(start_mid_side_without_blends(setup, progress), without_blends=True)
+    bare = None if remedies else without_blends(setup)
+    if bare is not None:
+        remedies = _start_sentence(start_mid_side(bare, progress, MAX_STARTS_WITHOUT_BLENDS), blends=False)
     remedies = (
         remedies
         or tuple(_tool_sentences(setup, nearest, progress))
@@ -115,11 +117,11 @@ def _blends_sentence(value: int | None) -> tuple[Finding, ...]:
     return (_remedy("BLENDLESS", f"W{_NO_BLENDS[1:]} look-ahead {value} is clean."),)
 
 
-def _start_sentence(start: StartMoved | None, *, without_blends: bool = False) -> tuple[Finding, ...]:
+def _start_sentence(start: StartMoved | None, *, blends: bool = True) -> tuple[Finding, ...]:
     if start is None:
         return ()
-    code, blends = ("START_BLENDLESS", f", {_NO_BLENDS}") if without_blends else ("START_MID_SIDE", "")
-    text = f"Start in the middle of segment {start.segment:g}, at X {{x}} Y {{y}}{blends}: "
+    code, how = ("START_MID_SIDE", "") if blends else ("START_BLENDLESS", f", {_NO_BLENDS}")
+    text = f"Start in the middle of segment {start.segment:g}, at X {{x}} Y {{y}}{how}: "
     effect, lengths = start.effect
     remedy = _remedy(code, f"{text}look-ahead {start.value} then {effect}.")
     return (replace(remedy, segment=start.segment, at=start.at, lengths=lengths),)
