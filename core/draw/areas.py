@@ -17,8 +17,7 @@ from numpy.typing import NDArray
 from shapely.geometry import LineString, MultiPolygon, Polygon, box
 from shapely.geometry.base import BaseGeometry
 
-from core.geometry.chords import chords_of
-from core.geometry.path import Floats, Path
+from core.geometry.path import Floats, Path, chords_of
 from core.geometry.piece import Side
 
 EMPTY_REGION: Final = MultiPolygon()

@@ -11,7 +11,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
-from math import tau
+from math import pi, tau
 from typing import Any, Final, NamedTuple
 
 import numpy as np
@@ -282,3 +282,22 @@ def runs_of(flags: Flags) -> list[Rows]:
     """Return the rows that have a flag, in groups of consecutive ones."""
     rows = np.flatnonzero(flags)
     return np.split(rows, np.flatnonzero(np.diff(rows) > 1) + 1) if len(rows) else []
+
+
+def chords_of(path: Path, sag: float) -> Floats:
+    """Return the (m, 2) points of a path whose arcs are replaced by chords no farther than `sag` (mm) from them.
+
+    They are for shapely to cut or to measure roughly.
+    """
+    if not len(path):
+        return np.empty((0, 2))
+    bent = np.isfinite(path.radii) & (path.radii > sag)
+    angles = np.minimum(2.0 * np.arccos(1.0 - sag / np.where(bent, path.radii, sag)), pi / 4)
+    counts = np.where(bent, np.maximum(np.ceil(np.abs(path.sweeps) / angles), 1.0), 1.0).astype(np.intp)
+    row = np.arange(len(path)).repeat(counts)
+    nth = np.arange(len(row)) - (counts.cumsum() - counts)[row]
+    part = nth / counts[row]
+    starts, ends, centers = (as_complex(points)[row] for points in (path.starts, path.ends, path.centers))
+    turned = centers + (starts - centers) * np.exp(1j * path.sweeps[row] * part)
+    points = np.where(path.turns[row] != 0, turned, starts + (ends - starts) * part)
+    return np.concatenate([coordinates(points), path.points[-1:]])

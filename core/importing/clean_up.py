@@ -15,8 +15,7 @@ from typing import Final, NamedTuple, TypeGuard
 import numpy as np
 import shapely
 
-from core.geometry.chords import chords_of
-from core.geometry.path import Path
+from core.geometry.path import Path, chords_of
 from core.geometry.piece import Arc, Line, Piece, Point, Turn
 from core.importing.nesting import CHORD_ERROR
 from core.importing.nodes import KEY_DECIMALS, Groups, Nodes, exact_nodes, nodes_of

@@ -12,8 +12,7 @@ from typing import Final
 import numpy as np
 import shapely
 
-from core.geometry.chords import chords_of
-from core.geometry.path import Floats, Path, Pieces, boxes
+from core.geometry.path import Floats, Path, Pieces, boxes, chords_of
 from core.geometry.piece import Arc, Piece
 from core.geometry.piece_arrays import piece_arrays
 from core.verify.self_crossings import self_crossings

@@ -16,7 +16,7 @@ from core.program.fields import form_of
 from core.program.model import ArcSegment, Relative, Unread
 from core.program.solve.reading import measured_fields
 from core.program.solve.solved import Solved, SolvedRun, SolvedSegment
-from core.units import Kind, Unit, from_mm, sentence, show
+from core.units import Kind, Unit, from_mm, length_text, sentence, show
 
 Document = dict[str, Any]
 
@@ -222,22 +222,22 @@ def verdict_listing(block: DerivedBlock, unit: Unit) -> Iterator[str]:
     """Yield what the cutter does to the surface: the least distance and its place, and each stretch not reached."""
     place = nearest_place(block.paths)
     if place is not None and block.radius is not None:
-        distance, radius = (_length(from_mm(value, unit), unit) for value in (place.distance, block.radius))
+        distance, radius = (length_text(value, unit) for value in (place.distance, block.radius))
         at = _place(place.surface_at, place.surface_number, unit)
         yield f"  NEAREST {distance}  TOOL RADIUS {radius}  at {at}"
     verdict = None if block.paths is None else block.paths.verdict
     if verdict is None or not verdict.judged:
         return
-    left, whole = (_length(from_mm(value, unit), unit) for value in (verdict.uncut_length, verdict.surface_length))
+    left, whole = (length_text(value, unit) for value in (verdict.uncut_length, verdict.surface_length))
     yield f"  UNCUT {left} of {whole}"
     for stretch in verdict.uncut:
         start = _place(stretch.start, stretch.first_number, unit)
         end = _place(stretch.end, stretch.last_number, unit)
-        yield f"    {_length(from_mm(stretch.length, unit), unit)} from {start} to {end}"
+        yield f"    {length_text(stretch.length, unit)} from {start} to {end}"
 
 
 def _place(point: Point, segment: float, unit: Unit) -> str:
-    x, y = (_length(from_mm(value, unit), unit) for value in point)
+    x, y = (length_text(value, unit) for value in point)
     return f"X {x} Y {y} on segment {segment:g}"
 
 
@@ -275,7 +275,7 @@ def table_listing(block: DerivedBlock, table: Table | None, unit: Unit) -> Itera
 
 
 def _row_line(row: Row, table: Table, unit: Unit) -> str:
-    gouge = "clean" if row.clean else _length(from_mm(row.gouge, unit), unit)
+    gouge = "clean" if row.clean else length_text(row.gouge, unit)
     deleted = " ".join(str(segment_number(number)) for number in row.deleted) or "-"
     mark = "<" if row.value == table.recommended else " "
-    return f"  {row.value:>4} {mark} {gouge:>11} {_length(from_mm(row.uncut, unit), unit):>12}  {deleted}"
+    return f"  {row.value:>4} {mark} {gouge:>11} {length_text(row.uncut, unit):>12}  {deleted}"

@@ -34,8 +34,7 @@ from core.output.passes import z_steps
 from core.pipeline.block_cuts import with_block_cuts
 from core.pipeline.derived import Derived, DerivedBlock
 from core.pipeline.fields_stage import solve_block_fields
-from core.pipeline.jobs import job
-from core.pipeline.parameters import MAX_SIDE_PASSES, parameter, stocks
+from core.pipeline.jobs import MAX_SIDE_PASSES, job, parameter, stocks
 from core.program.model import PathChoice, Program
 from core.progress import Progress, part, silent
 from core.units import Kind, decimals_shown, from_mm, to_mm

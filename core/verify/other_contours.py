@@ -21,9 +21,8 @@ import shapely
 from shapely.geometry import LineString, Point, Polygon
 from shapely.geometry.base import BaseGeometry
 
-from core.geometry.chords import chords_of
 from core.geometry.nearby import near_pairs
-from core.geometry.path import Floats, Path, runs_of
+from core.geometry.path import Floats, Path, chords_of, runs_of
 from core.geometry.piece import Side
 from core.progress import Progress, silent
 from core.tolerance import ARC_RADII, GOUGE, ON_PATH

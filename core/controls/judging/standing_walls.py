@@ -24,8 +24,7 @@ from shapely.geometry import Polygon
 
 from core.controls.judging.contours_and_leads import RowRange, closed_passes, is_closed
 from core.controls.judging.repeated_passes import PathKey, path_key
-from core.geometry.chords import chords_of
-from core.geometry.path import Floats, Path, joined
+from core.geometry.path import Floats, Path, chords_of, joined
 from core.geometry.piece import Side
 from core.tolerance import ON_PATH
 

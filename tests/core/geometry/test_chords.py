@@ -7,8 +7,7 @@ from math import hypot, pi
 import numpy as np
 import pytest
 
-from core.geometry.chords import chords_of
-from core.geometry.path import Path
+from core.geometry.path import Path, chords_of
 from core.geometry.piece import Arc, Line, Turn
 
 

@@ -10,8 +10,7 @@ from functools import cache
 import pytest
 import shapely
 
-from core.geometry.chords import chords_of
-from core.geometry.path import Path
+from core.geometry.path import Path, chords_of
 from core.geometry.piece import Arc, Line, Piece, Turn
 from core.importing.clean_up import LayeredPiece, clean_up
 from core.importing.contour import (

@@ -10,7 +10,7 @@ from core.finding import Finding, Severity
 from core.pipeline.derive import derive
 from core.pipeline.derived import DerivedBlock
 from core.pipeline.fields_stage import solve_fields
-from core.pipeline.parameters import stocks
+from core.pipeline.jobs import stocks
 from core.program.model import BlendSegment, CutterComp, LineSegment, Number, ProgramParameters, Segment, Unread
 from core.units import Unit, sentence
 from tests.core.pipeline.parts import MID_SIDE_SQUARE, OUTSIDE_SQUARE, OVER_RUN_SQUARE, Points, block, program
