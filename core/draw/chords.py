@@ -64,8 +64,7 @@ class _Pieces:
     @property
     def radii(self) -> Floats:
         """(n,) radii of arcs, in cell widths."""
-        radii: Floats = np.abs(self.starts - self.centers)
-        return radii
+        return np.abs(self.starts - self.centers)
 
 
 def chords(layers: Sequence[Layer], view: View, columns: int, rows: int) -> Chords:
@@ -108,8 +107,7 @@ def _pieces(layers: Sequence[Layer], view: View) -> _Pieces:
 
 def _within(points: Points) -> Flags:
     """Return (n,) True for points that are drawn at all; a NaN is not."""
-    within: Flags = (np.abs(points.real) <= MAX_DRAWN_COORDINATE) & (np.abs(points.imag) <= MAX_DRAWN_COORDINATE)
-    return within
+    return (np.abs(points.real) <= MAX_DRAWN_COORDINATE) & (np.abs(points.imag) <= MAX_DRAWN_COORDINATE)
 
 
 def _traveled(layer: Layer) -> Floats:
@@ -142,8 +140,7 @@ def _divided(arcs: _Pieces, reach: float) -> Chords:
 
 def _begin(arcs: _Pieces) -> Floats:
     """Return (k,) the directions from the arcs' centers to their starts."""
-    begin: Floats = np.angle(arcs.starts - arcs.centers)
-    return begin
+    return np.angle(arcs.starts - arcs.centers)
 
 
 def _visible(arcs: _Pieces, reach: float) -> tuple[_Pieces, Floats, Floats]:

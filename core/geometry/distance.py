@@ -18,14 +18,12 @@ from core.geometry.piece_arrays import PieceArrays, at, by_kind, traveled
 
 def foot(pieces: PieceArrays, points: Points) -> Floats:
     """Return the (..., n) fractions at which each piece is nearest to its point of `points` (..., n)."""
-    t: Floats = by_kind(pieces.arcs, _line_foot, _arc_foot, pieces, points)
-    return t
+    return by_kind(pieces.arcs, _line_foot, _arc_foot, pieces, points)
 
 
 def distance(pieces: PieceArrays, points: Points) -> Floats:
     """Return the (..., n) least distances of each piece from its point of `points` (..., n), in millimeters."""
-    apart: Floats = by_kind(pieces.arcs, _line_distance, _arc_distance, pieces, points)
-    return apart
+    return by_kind(pieces.arcs, _line_distance, _arc_distance, pieces, points)
 
 
 def _line_foot(line: PieceArrays, points: Points) -> Floats:
@@ -34,8 +32,7 @@ def _line_foot(line: PieceArrays, points: Points) -> Floats:
 
 def _line_distance(line: PieceArrays, points: Points) -> Floats:
     off = points - line.start
-    gap: Floats = np.abs(off - _line_share(line, off) * line.vector)
-    return gap
+    return np.abs(off - _line_share(line, off) * line.vector)
 
 
 def _line_share(line: PieceArrays, off: Points) -> Floats:
@@ -50,27 +47,23 @@ def _line_share(line: PieceArrays, off: Points) -> Floats:
 def _arc_foot(arc: PieceArrays, points: Points) -> Floats:
     turned = traveled(arc, points - arc.center)
     beyond = np.where(tau - turned < turned - arc.angle, 0.0, 1.0)
-    t: Floats = np.where(turned <= arc.angle, turned / np.where(arc.angle == 0.0, 1.0, arc.angle), beyond)
-    return t
+    return np.where(turned <= arc.angle, turned / np.where(arc.angle == 0.0, 1.0, arc.angle), beyond)
 
 
 def _arc_distance(arc: PieceArrays, points: Points) -> Floats:
     radial = points - arc.center
     to_ends = np.minimum(np.abs(points - arc.start), np.abs(points - arc.end))
-    apart: Floats = np.where(traveled(arc, radial) <= arc.angle, np.abs(np.abs(radial) - arc.radius), to_ends)
-    return apart
+    return np.where(traveled(arc, radial) <= arc.angle, np.abs(np.abs(radial) - arc.radius), to_ends)
 
 
 def on_line(pieces: PieceArrays, through: Points, unit: Points) -> Floats:
     """Return the (2, ..., n) fractions at which the pieces meet endless lines through points along `unit`; else nan."""
-    met: Floats = by_kind(pieces.arcs, _line_on_line, _arc_on_line, pieces, through, unit)
-    return met
+    return by_kind(pieces.arcs, _line_on_line, _arc_on_line, pieces, through, unit)
 
 
 def on_circle(pieces: PieceArrays, center: Points, radius: Floats) -> Floats:
     """Return the (2, ..., n) fractions at which the pieces, lines extended, meet whole circles; nan for none."""
-    met: Floats = by_kind(pieces.arcs, _line_on_circle, _arc_on_circle, pieces, center, radius)
-    return met
+    return by_kind(pieces.arcs, _line_on_circle, _arc_on_circle, pieces, center, radius)
 
 
 def _line_on_line(line: PieceArrays, through: Points, unit: Points) -> Floats:
@@ -171,18 +164,16 @@ def _clipped(t: Floats) -> Floats:
 
 
 def _crossings(pieces: PieceArrays, other: PieceArrays) -> Floats:
-    met: Floats = by_kind(
+    return by_kind(
         other.arcs,
         lambda: on_line(pieces, other.start, other.unit),
         lambda: on_circle(pieces, other.center, other.radius),
     )
-    return met
 
 
 def feet(pieces: PieceArrays, other: PieceArrays) -> Floats:
     """Return (4, n) fractions: the feet of the other's two ends and, both ways, of its center or along its normal."""
-    fractions: Floats = by_kind(pieces.arcs, _line_feet, _arc_feet, pieces, other)
-    return fractions
+    return by_kind(pieces.arcs, _line_feet, _arc_feet, pieces, other)
 
 
 def _line_feet(line: PieceArrays, other: PieceArrays) -> Floats:

@@ -237,8 +237,7 @@ def _overlap(a: Pieces, b: Pieces) -> Flags:
 
 def _middle(arc: Pieces) -> Points:
     """Return the point halfway along each arc."""
-    middle: Points = arc.center + (arc.start - arc.center) * np.exp(1j * swept(arc) / 2.0 * arc.turn)
-    return middle
+    return arc.center + (arc.start - arc.center) * np.exp(1j * swept(arc) / 2.0 * arc.turn)
 
 
 def _inside(arc: Pieces, point: Points) -> Flags:
@@ -253,8 +252,7 @@ def _turned(arc: Pieces, point: Points) -> Floats:
     """Return the angle from the arc's start to a point, in the arc's direction, 0 ... a full turn."""
     across = (arc.start - arc.center).conj() * (point - arc.center)
     angle = np.arctan2(across.imag, across.real) * arc.turn
-    turned: Floats = np.where(angle < 0.0, angle + tau, angle)
-    return turned
+    return np.where(angle < 0.0, angle + tau, angle)
 
 
 def _along_arc(point: Points, arc: Pieces, radius: Floats) -> tuple[Floats, Floats]:

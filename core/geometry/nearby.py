@@ -149,8 +149,7 @@ def _diagonals(boxes: Floats) -> np.ndarray[tuple[int], np.dtype[np.object_]]:
 def _apart(first: Floats, second: Floats) -> Floats:
     """Return the distances between boxes, 0 where they meet."""
     gaps = np.maximum(np.maximum(first[:2] - second[2:], second[:2] - first[2:]), 0.0)
-    apart: Floats = np.hypot(gaps[0], gaps[1])
-    return apart
+    return np.hypot(gaps[0], gaps[1])
 
 
 @dataclass(frozen=True, eq=False, slots=True)
@@ -189,8 +188,7 @@ class CoarseChords:
         """Return the vector to each point (m,) from the nearest point of the chord in its row."""
         away, half = points - self.middle.take(rows), self.half.take(rows)
         share = (away * half.conj()).real / self.square.take(rows)
-        off: Points = away - np.minimum(np.maximum(share, -1.0), 1.0) * half
-        return off
+        return away - np.minimum(np.maximum(share, -1.0), 1.0) * half
 
 
 ChordLevels = tuple[CoarseChords, ...]
@@ -226,8 +224,7 @@ def _grouped(members: CoarseChords) -> CoarseChords:
 
 def _per_axis(reduce: Callable[..., Floats], points: Points, begins: Rows) -> Points:
     """Apply `reduce` to the x and the y coordinates of points separately."""
-    reduced: Points = reduce(points.view(np.float64).reshape(-1, 2), begins, axis=0).view(np.complex128).ravel()
-    return reduced
+    return reduce(points.view(np.float64).reshape(-1, 2), begins, axis=0).view(np.complex128).ravel()
 
 
 def nearest_pairs(pieces: PieceArrays, others: PieceArrays, tie: float) -> tuple[Rows, Rows]:

@@ -116,8 +116,7 @@ class Path:
     def radii(self) -> Floats:
         """(n,) radius of each arc, 0 for a line."""
         radial = self.starts - self.centers
-        radii: Floats = np.hypot(radial[:, 0], radial[:, 1])
-        return radii
+        return np.hypot(radial[:, 0], radial[:, 1])
 
     @property
     def sweeps(self) -> Floats:
@@ -144,8 +143,7 @@ class Path:
         along = np.stack((-radial[:, 1], radial[:, 0]), axis=1) * self.turns[:, None]
         along = np.where(self.turns[:, None] == 0, self.ends - self.starts, along)
         size = np.hypot(along[:, 0], along[:, 1])
-        unit: Floats = along / np.where(size == 0.0, 1.0, size)[:, None]
-        return unit
+        return along / np.where(size == 0.0, 1.0, size)[:, None]
 
     @property
     def boxes(self) -> Floats:
@@ -252,8 +250,7 @@ class Pieces(NamedTuple):
 
 def as_complex(pairs: Floats) -> Points:
     """Return (n, 2) coordinates as (n,) complex numbers, without a copy if they are contiguous in memory."""
-    flat: Points = np.ascontiguousarray(pairs).view(np.complex128)[:, 0]
-    return flat
+    return np.ascontiguousarray(pairs).view(np.complex128)[:, 0]
 
 
 def coordinates(points: Points) -> Floats:

@@ -56,8 +56,7 @@ class PieceArrays:
     @property
     def arcs(self) -> Flags:
         """(n,) True for arcs."""
-        arcs: Flags = self.turn != 0.0
-        return arcs
+        return self.turn != 0.0
 
     @property
     def end(self) -> Points:
@@ -73,8 +72,7 @@ class PieceArrays:
     def unit(self) -> Points:
         """(n,) direction of each chord; 0 for one without length."""
         size = np.abs(self.vector)
-        unit: Points = self.vector / np.where(size == 0.0, 1.0, size)
-        return unit
+        return self.vector / np.where(size == 0.0, 1.0, size)
 
     @property
     def stations(self) -> Floats:
@@ -188,24 +186,21 @@ def blocks(first: Flags, second: Flags) -> Iterator[Rows]:
 
 def at(pieces: PieceArrays, t: Floats) -> Points:
     """Return the (..., n) points at the fractions `t` (..., n) of each piece."""
-    points: Points = by_kind(
+    return by_kind(
         pieces.arcs,
         lambda: pieces.start + t * pieces.vector,
         lambda: pieces.center + pieces.arm * np.exp(1j * (pieces.turn * pieces.angle) * t),
     )
-    return points
 
 
 def direction(pieces: PieceArrays, t: Floats) -> Points:
     """Return the (n,) unit tangents at the fractions `t` (n,)."""
-    units: Points = by_kind(pieces.arcs, lambda: pieces.unit + 0.0 * t, lambda: _arc_direction(pieces, t))
-    return units
+    return by_kind(pieces.arcs, lambda: pieces.unit + 0.0 * t, lambda: _arc_direction(pieces, t))
 
 
 def _arc_direction(arc: PieceArrays, t: Floats) -> Points:
     size = np.where(arc.radius == 0.0, 1.0, arc.radius)
-    units: Points = 1j * arc.turn * (arc.arm / size) * np.exp(1j * (arc.turn * arc.angle) * t)
-    return units
+    return 1j * arc.turn * (arc.arm / size) * np.exp(1j * (arc.turn * arc.angle) * t)
 
 
 def traveled(arc: PieceArrays, directions: Points) -> Floats:
@@ -225,5 +220,4 @@ def place(pieces: PieceArrays, stations: Floats, s: Floats) -> tuple[Rows, Float
 
 def fraction(traveled_on: Floats, length: Floats) -> Floats:
     """Return the fractions, within 0 ... 1, of pieces of these lengths (n,) after (..., n) lengths traveled on them."""
-    share: Floats = np.clip(traveled_on / np.where(length == 0.0, 1.0, length), 0.0, 1.0)
-    return share
+    return np.clip(traveled_on / np.where(length == 0.0, 1.0, length), 0.0, 1.0)

@@ -105,8 +105,7 @@ def closest(pairs: Pairs, surface: Path) -> Approach | None:
 
 def _loops(moves: PieceArrays) -> Rows:
     """Return (n,) the loop that each move belongs to; a loop begins where a move does not join the one before it."""
-    loops: Rows = np.append(0, (np.abs(moves.start[1:] - moves.end[:-1]) > JOINED).cumsum())
-    return loops
+    return np.append(0, (np.abs(moves.start[1:] - moves.end[:-1]) > JOINED).cumsum())
 
 
 def _deepest(pairs: Pairs, parts: Parts, gaps: Floats) -> Parts:

@@ -116,8 +116,7 @@ def _measured(pieces: PieceArrays, i: Rows, others: PieceArrays, j: Rows) -> tup
 
 def keeping(pairs: Pairs, radius: float) -> Flags:
     """True for pairs whose other piece is no farther than the radius from the piece's ends and its middle."""
-    near: Flags = pairs.from_piece.max(axis=0) <= radius + pairs.grant + STOCK
-    return near
+    return pairs.from_piece.max(axis=0) <= radius + pairs.grant + STOCK
 
 
 def along(pairs: Pairs, limit: Floats) -> Flags:
@@ -134,8 +133,7 @@ def covering(pairs: Pairs, limit: Floats) -> Flags:
 
 
 def _straight(pairs: Pairs) -> Flags:
-    straight: Flags = ~(pairs.pieces.arcs[pairs.i] | pairs.others.arcs[pairs.j])
-    return straight
+    return ~(pairs.pieces.arcs[pairs.i] | pairs.others.arcs[pairs.j])
 
 
 def concentric(pairs: Pairs) -> Flags:
@@ -152,8 +150,7 @@ def _about_one_center(piece: PieceArrays, other: PieceArrays) -> Flags:
     middles = [arc.arm * np.exp(0.5j * arc.turn * arc.angle) for arc in (piece, other)]
     between = np.abs(np.angle(middles[0] * np.conj(middles[1])))
     once = (piece.angle + other.angle) / 2.0 + between < tau - MIN_SEPARATE_ANGLE
-    alike: Flags = (np.abs(piece.center - other.center) <= ON_PATH) & once
-    return alike
+    return (np.abs(piece.center - other.center) <= ON_PATH) & once
 
 
 @dataclass(frozen=True, eq=False, slots=True)

@@ -116,8 +116,7 @@ def _in_thin_runs(pairs: Pairs, whole: Flags, radius: float, *, closed: bool) ->
         runs[runs == runs[-1]] = 0
     reported = np.zeros(len(whole) + 1, np.bool_)
     reported[runs[thick]] = True
-    thin: Flags = ~reported[runs]
-    return thin
+    return ~reported[runs]
 
 
 def gaps_of(pairs: Pairs, whole: Flags, radius: float) -> Gaps:
@@ -265,5 +264,4 @@ def _sectors(pieces: PieceArrays, parts: Intervals, starts: Floats, corner: Poin
     angle = np.angle(np.conj(first) * middle) + np.angle(np.conj(middle) * last)
     swept = (t[2] - t[0]) * pieces.angle
     bow = pieces.turn * pieces.radius**2 * (swept - np.sin(swept))
-    sectors: Floats = 0.5 * ((np.conj(first) * last).imag + bow - radius * radius * angle)
-    return sectors
+    return 0.5 * ((np.conj(first) * last).imag + bow - radius * radius * angle)

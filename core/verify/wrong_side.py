@@ -137,8 +137,7 @@ def _with_depth(pairs: Pairs, inside: Intervals, hits: Gouging, wrong: Flags, ra
 def _near(pairs: Pairs, radius: float) -> Flags:
     """True for pieces whose middle is no farther from the surface than the radius."""
     middle = np.minimum.reduceat(pairs.from_piece[1], pairs.begins[:-1])
-    near: Flags = middle <= radius + 10.0 * GOUGE
-    return near
+    return middle <= radius + 10.0 * GOUGE
 
 
 def _on_one_wall(pairs: Pairs, hits: Gouging, radius: float) -> Flags:

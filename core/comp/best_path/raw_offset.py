@@ -55,8 +55,7 @@ class RawOffset:
     @property
     def next_in_row(self) -> Flags:
         """(m,) True for pieces that are followed by the piece in the next row."""
-        next_row: Flags = self.following == np.arange(1, len(self) + 1)
-        return next_row
+        return self.following == np.arange(1, len(self) + 1)
 
     def take(self, marked: Flags) -> RawOffset:
         """Return the pieces that are `marked` (m,); pieces whose following piece is dropped have none."""
@@ -66,8 +65,7 @@ class RawOffset:
     def directions(self, rows: Rows, points: Points) -> Points:
         """Return the (k,) directions of travel of pieces at points on them, not of unit length."""
         turns, span = self.turns[rows], self.end[rows] - self.start[rows]
-        along: Points = np.where(turns == 0, span, 1j * turns * (points - self.center[rows]))
-        return along
+        return np.where(turns == 0, span, 1j * turns * (points - self.center[rows]))
 
     def along(self, rows: Rows, points: Points) -> Floats:
         """Return the (k,) distances along the pieces, from their starts, to the positions abreast of points."""
@@ -78,8 +76,7 @@ class RawOffset:
         arm = start - center
         angle = np.mod(np.angle(arm.conj() * (points - center)) * turns, tau)
         angle = np.where((tau - angle) * np.abs(arm) <= JOINED, angle - tau, angle)
-        along: Floats = np.where(straight, line, angle * np.abs(arm))
-        return along
+        return np.where(straight, line, angle * np.abs(arm))
 
     def at(self, rows: Rows, along: Floats) -> Points:
         """Return the (k,) points at distances from the pieces' starts."""
@@ -88,8 +85,7 @@ class RawOffset:
         size = np.abs(arm)
         straight = start - arm * (along / size)
         curved = start - arm + arm * np.exp(1j * turns * (along / size))
-        points: Points = np.where(turns == 0, straight, curved)
-        return points
+        return np.where(turns == 0, straight, curved)
 
 
 @dataclass(frozen=True, eq=False, slots=True)

@@ -254,8 +254,7 @@ def _stations(raw: RawOffset, met: Intersections, nodes: int) -> _Stations:
 def _sizes(raw: RawOffset, piece: Rows, begin: Floats, until: Rows, end: Floats) -> Floats:
     """Return the (s,) lengths of slices, as a difference along the piece if a slice lies on a single one."""
     traveled = np.cumsum(raw.lengths) - raw.lengths
-    size: Floats = np.where(piece == until, end - begin, (traveled[until] + end) - (traveled[piece] + begin))
-    return size
+    return np.where(piece == until, end - begin, (traveled[until] + end) - (traveled[piece] + begin))
 
 
 def _nodes(raw: RawOffset, met: Intersections, strands: _Strands) -> tuple[Points, Flags]:
