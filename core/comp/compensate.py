@@ -64,14 +64,21 @@ class OffsetContour:
         """Return the contour's path at this look-ahead, no larger than the largest one that `offset_contour` got."""
         chain, candidates = self.chain, self.candidates
         if chain is None or candidates is None:
-            return Compensated(self.contour, self.side, self.radius, lookahead, self.closed, self.findings)
+            return Compensated(
+                contour=self.contour,
+                side=self.side,
+                radius=self.radius,
+                lookahead=lookahead,
+                closed=self.closed,
+                findings=self.findings,
+            )
         last_wins = self.closed and len(self.contour) == 2
         pruned = prune(chain, candidates.joints, candidates.within(lookahead), last_wins=last_wins)
         path_findings = findings.bridge_findings(self.contour, chain, pruned, self.radius)
         if self.closed:
             path_findings += findings.most_deleted_finding(self.contour, pruned)
         if not len(pruned.path):
-            path_findings.append(findings.nothing_left())
+            path_findings.append(findings.NOTHING_LEFT)
         return Compensated(
             contour=self.contour,
             side=self.side,

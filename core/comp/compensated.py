@@ -45,7 +45,7 @@ NO_DELETIONS: Final = Deletions(np.empty(0), np.empty((0, 2)), np.empty((0, 2)))
 class CenterPath:
     """One center path with its blend moves, joined end to start; `offset` is the stock it leaves on the side (mm)."""
 
-    path: Path
+    path: Path = EMPTY
     lead_in: Path = EMPTY
     lead_out: Path = EMPTY
     offset: float = 0.0
@@ -62,14 +62,14 @@ class CenterPath:
         return point_of_row(whole.points[0]) if len(whole) else None
 
 
-@dataclass(frozen=True, eq=False, slots=True)
-class Compensated:
+@dataclass(frozen=True, eq=False, slots=True, kw_only=True)
+class Compensated(CenterPath):
     """A contour's center path at one look-ahead, with its stages.
 
     `raw` is the chain of all offset pieces, corner arcs and provisional bridges before any test; `path` is what is
     left of it.  `bridged` (len(path),) marks pieces of `path` that are provisional bridges never replaced.
-    `lead_in` and `lead_out` are the blend moves with the overlap.  Millimeters.  `tested` is the number of crossings
-    that the look-ahead tests: look-aheads of one contour with equal numbers make the same path.
+    `lead_out` begins with the overlap.  Millimeters.  `tested` is the number of crossings that the look-ahead tests:
+    look-aheads of one contour with equal numbers make the same path.
     """
 
     contour: Path
@@ -80,13 +80,5 @@ class Compensated:
     findings: tuple[Finding, ...]
     raw: Path = EMPTY
     tested: int = 0
-    path: Path = EMPTY
     bridged: Flags = field(default_factory=lambda: np.empty(0, np.bool_))
     deleted: Deletions = NO_DELETIONS
-    lead_in: Path = EMPTY
-    lead_out: Path = EMPTY
-
-    @property
-    def whole(self) -> Path:
-        """Blend-in, path and blend-out as one path."""
-        return joined((self.lead_in, self.path, self.lead_out))

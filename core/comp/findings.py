@@ -19,6 +19,10 @@ MAX_NAMED_PLACES: Final = 100
 """At most this many places of one kind are listed; a last finding then says how many there are in all."""
 
 
+NOTHING_LEFT: Final = Finding("NO_PATH", Severity.ERROR, "Nothing is left of the path: the tool does not fit.")
+"""The error for a path with no length at all."""
+
+
 def contour_refusals(contour: Path, radius: float, lookaheads: Sequence[int]) -> tuple[Finding, ...]:
     """Return why a contour cannot be compensated at all; empty if it can."""
     if not 0.0 < radius <= LARGEST_COORDINATE:
@@ -137,11 +141,6 @@ def most_deleted_finding(contour: Path, pruned: Pruned) -> list[Finding]:
     what = f"LOOK-AHEAD deletes most of the part: {segment_list(deleted)}, {{value}} long."
     text = f"{what} Press Space on LOOKAHEAD to find a value that keeps it."
     return [Finding("LONG_WAY", Severity.WARNING, text, float(deleted[0]), value=erased)]
-
-
-def nothing_left() -> Finding:
-    """Return the error for a path with no length at all."""
-    return _error("NO_PATH", "Nothing is left of the path: the tool does not fit.")
 
 
 def segment_list(numbers: NDArray[np.float64]) -> str:

@@ -103,10 +103,7 @@ def _clipped(lines: Chords, half_width: float, half_height: float) -> Chords:
     """Clip the chords to the window (Liang and Barsky's parameters)."""
     starts, run = lines.starts, lines.runs
     enter, leave = np.zeros(len(run)), np.ones(len(run))
-    for start, step, limit in (
-        (starts.real, run.real, half_width),
-        (starts.imag, run.imag, half_height),
-    ):
+    for start, step, limit in ((starts.real, run.real, half_width), (starts.imag, run.imag, half_height)):
         low, high = _between(start, step, limit)
         np.maximum(enter, low, out=enter)
         np.minimum(leave, high, out=leave)

@@ -15,14 +15,7 @@ import shapely
 
 from core.geometry.piece import Line, Piece, Point, Turn
 from core.importing.clean_up import Cleaned, LayeredPiece, clean_up
-from core.importing.contour import (
-    Contour,
-    ContourKind,
-    joined_open,
-    reversed_contour,
-    rounded,
-    started_at_usual_place,
-)
+from core.importing.contour import Contour, ContourKind, joined_open, reversed_contour, rounded, started_at_usual_place
 from core.importing.curves import moved_piece, pieces_of_ellipse, pieces_of_spline
 from core.importing.drawing import BSpline, Drawing, DrawingError, DrawingUnit, Drawn, EllipseArc, Progress, silent
 from core.importing.joints import joined_chain, reversed_pieces

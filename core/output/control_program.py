@@ -43,13 +43,7 @@ def control_program_errors(jobs: Sequence[Job], unit: Unit) -> tuple[Finding, ..
 
 
 def control_program(
-    jobs: Sequence[Job],
-    cuts: Sequence[PassToWrite],
-    unit: Unit,
-    *,
-    name: str,
-    control: str,
-    part: str = "",
+    jobs: Sequence[Job], cuts: Sequence[PassToWrite], unit: Unit, *, name: str, control: str, part: str = ""
 ) -> Posted | Refusal:
     """Return the program for a control, given by its full name, or the refusal; `cuts` are those of the jobs, in order.
 
@@ -108,11 +102,7 @@ def _with_deleted_segments(cuts: Sequence[PassToWrite]) -> list[CompensatedPass]
 
 
 def _header(
-    jobs: Sequence[Job],
-    cuts: Sequence[PassToWrite],
-    unit: Unit,
-    control: str,
-    notes: Sequence[Finding],
+    jobs: Sequence[Job], cuts: Sequence[PassToWrite], unit: Unit, control: str, notes: Sequence[Finding]
 ) -> Iterator[str]:
     """Yield the sentences of the header below its titles."""
     compensates = any(isinstance(cut, CompensatedPass) for cut in cuts)

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from dataclasses import dataclass, replace
+from dataclasses import replace
 
 from core.advice.block_paths import BlockPaths, RoughPass
 from core.advice.largest_blend import with_largest_blend
@@ -23,11 +23,9 @@ from core.advice.why_not_clean import advice_for
 from core.comp.best_path.best_path import BestPath, best_path
 from core.comp.best_path.separation import separation
 from core.comp.blend_moves import blend_in, blend_out
-from core.comp.compensate import compensate
 from core.comp.compensated import CenterPath, Compensated
 from core.finding import Finding, Severity
 from core.geometry.path import Path
-from core.geometry.piece import Side
 from core.output.grid import Grid
 from core.output.objections import OVERRIDABLE_CODES, job_errors
 from core.output.passes import z_steps
@@ -90,61 +88,44 @@ def _block_paths(block: DerivedBlock, program: Program, progress: Progress) -> B
     """Return the surface of a block, its paths and the verdict on them."""
     numbers, pieces = zip(*block.solved.pieces, strict=True)
     surface = Path.from_pieces(pieces, numbers)
-    if block.side is None:
+    setup = _setup(block, surface, program)
+    if setup is None:
         return BlockPaths(surface, (CenterPath(surface),), None, None)
-    assert block.radius is not None
-    contour = _Contour(surface, block.side, block.solved.closed, block.lookahead.value, program)
-    control, best, loops = contour.paths(block.radius)
+    control, best, loops = _paths(setup, setup.radius, block, program)
     progress(0.3)
-    verdict = contour.verdict(block.radius, loops)
+    verdict = _verdict(setup, setup.radius, loops)
     progress(0.6)
-    return BlockPaths(surface, loops, control, verdict, _rough(block, contour, progress), best)
-
-
-@dataclass(frozen=True, eq=False, slots=True)
-class _Contour:
-    """A surface, the side on which it is cut, and the look-ahead in force; radii in millimeters."""
-
-    surface: Path
-    side: Side
-    closed: bool
-    lookahead: int
-    program: Program
-
-    def paths(self, radius: float) -> tuple[Compensated, BestPath | None, tuple[CenterPath, ...]]:
-        """Return the control's path, the best path if PATH is BEST, and the loops that are posted, with their blends.
-
-        Those are the control's path, or every loop of the best one.
-        """
-        blend, overlap = parameter(self.program, "blend_offset"), parameter(self.program, "blend_overlap")
-        control = compensate(
-            self.surface, self.side, radius, self.lookahead, closed=self.closed, blend=blend, overlap=overlap
-        )
-        if self.program.parameters.path is not PathChoice.BEST:
-            posted = CenterPath(control.path, control.lead_in, control.lead_out)
-            return control, None, (posted,) if len(control.path) else ()
-        best = best_path(self.surface, self.side, radius, closed=self.closed)
-        loops = tuple(
-            CenterPath(loop, blend_in(loop, self.side, blend), blend_out(loop, self.side, blend, overlap, closed=ring))
-            for loop, ring in zip(best.loops, best.closed, strict=True)
-        )
-        return control, best, loops
-
-    def verdict(self, radius: float, loops: tuple[CenterPath, ...]) -> Verdict:
-        """Return the verdict on a cutter that runs these loops."""
-        return judge_together(self.surface, self.side, radius, [loop.whole for loop in loops])
-
-
-def _rough(block: DerivedBlock, contour: _Contour, progress: Progress) -> tuple[RoughPass, ...]:
-    if block.solved.tool_diameter is None:
-        return ()
-    passes = []
-    for stock in stocks(block, contour.program):
-        radius = block.solved.tool_diameter / 2 + stock
-        control, _, loops = contour.paths(radius)
-        passes.append(RoughPass(stock, loops, control, contour.verdict(radius, loops)))
+    rough = []
+    for stock in setup.stocks:
+        radius = (block.solved.tool_diameter or 0.0) / 2 + stock
+        rough_control, _, rough_loops = _paths(setup, radius, block, program)
+        rough.append(RoughPass(stock, rough_loops, rough_control, _verdict(setup, radius, rough_loops)))
         progress(0.6)
-    return tuple(passes)
+    return BlockPaths(surface, loops, control, verdict, tuple(rough), best)
+
+
+def _paths(
+    setup: CuttingSetup, radius: float, block: DerivedBlock, program: Program
+) -> tuple[Compensated, BestPath | None, tuple[CenterPath, ...]]:
+    """Return the control's path, the best path if PATH is BEST, and the loops that are posted, with their blends.
+
+    Those are the control's path, or every loop of the best one.
+    """
+    (control,) = setup.paths(radius, (block.lookahead.value,))
+    if program.parameters.path is not PathChoice.BEST:
+        return control, None, (control,) if len(control.path) else ()
+    best = best_path(setup.surface, setup.side, radius, closed=setup.closed)
+    side, blend, overlap = setup.side, setup.blend, setup.overlap
+    loops = tuple(
+        CenterPath(loop, blend_in(loop, side, blend), blend_out(loop, side, blend, overlap, closed=ring))
+        for loop, ring in zip(best.loops, best.closed, strict=True)
+    )
+    return control, best, loops
+
+
+def _verdict(setup: CuttingSetup, radius: float, loops: tuple[CenterPath, ...]) -> Verdict:
+    """Return the verdict on a cutter that runs these loops."""
+    return judge_together(setup.surface, setup.side, radius, [loop.whole for loop in loops])
 
 
 def _with_findings(block: DerivedBlock, paths: BlockPaths, program: Program) -> DerivedBlock:
@@ -197,10 +178,14 @@ def look_ahead_table(
 
 def cutting_setup(block: DerivedBlock, program: Program) -> CuttingSetup | None:
     """Return what a derived block cuts; None for ON and while there is nothing to compensate."""
-    if block.paths is None or block.side is None or block.radius is None:
+    return None if block.paths is None else _setup(block, block.paths.surface, program)
+
+
+def _setup(block: DerivedBlock, surface: Path, program: Program) -> CuttingSetup | None:
+    if block.side is None or block.radius is None:
         return None
     return CuttingSetup(
-        block.paths.surface,
+        surface,
         block.side,
         block.radius,
         block.solved.closed,

@@ -88,7 +88,7 @@ def block_scene(block: DerivedBlock, segment: int | None, unit: Unit, row: Row |
         control = None
     if row is not None:
         control, verdict = row.compensated, row.verdict
-        loops = (CenterPath(control.path, control.lead_in, control.lead_out),)
+        loops = (control,)
     surface, first = _surface(block), loops[0] if loops else CenterPath(EMPTY)
     return contour_scene(
         surface,

@@ -115,11 +115,7 @@ def _coolant(prompt: str) -> Field:
     return _choice("coolant", "COOLANT", prompt, Coolant)
 
 
-_FEED: Final = _feed(
-    "feed",
-    "FEED",
-    "Feed along this segment. Blank: as the segment before.",
-)
+_FEED: Final = _feed("feed", "FEED", "Feed along this segment. Blank: as the segment before.")
 _X_END: Final = _place("x_end", "X END", "X of the end of this segment. I5: 5 from its start.", relative=True)
 _Y_END: Final = _place("y_end", "Y END", "Y of the end of this segment. I5: 5 from its start.", relative=True)
 _Z_END: Final = _place("z_end", "Z END", "Z at the end of this segment. Blank: as the segment before.")
@@ -166,28 +162,15 @@ ARC: Final = (
     _place("x_center", "X CENTER", "X of the center of the arc. I5: 5 from its start.", relative=True),
     _place("y_center", "Y CENTER", "Y of the center of the arc. I5: 5 from its start.", relative=True),
     _size("radius", "RADIUS", "Radius of the arc."),
-    Field(
-        "sweep",
-        "SWEEP ANGLE",
-        Kind.ANGLE,
-        "Angle the arc turns through; 360 = full circle.",
-        high=360.0,
-        above=0.0,
-    ),
+    Field("sweep", "SWEEP ANGLE", Kind.ANGLE, "Angle the arc turns through; 360 = full circle.", high=360.0, above=0.0),
     _heading("start_angle", "START ANGLE", "Direction in which the arc starts, from +X. I90: from the segment before."),
     _FEED,
     _TANGENT,
 )
 
-BLEND: Final = (
-    _size("radius", "RADIUS", "Radius of the arc between the segments before and after."),
-    _FEED,
-)
+BLEND: Final = (_size("radius", "RADIUS", "Radius of the arc between the segments before and after."), _FEED)
 
-CHAMFER: Final = (
-    _size("length", "LENGTH", "Length cut off both segments at their corner."),
-    _FEED,
-)
+CHAMFER: Final = (_size("length", "LENGTH", "Length cut off both segments at their corner."), _FEED)
 
 TOOL: Final = (
     _count("number", "TOOL", "Tool number.", 1, 9999),
@@ -226,10 +209,7 @@ SETUP: Final = (
 )
 
 SOLUTION: Final = Field(
-    "choice",
-    "SOLUTION",
-    Kind.CHOICE,
-    "Space shows the next solution; the others are dotted in the drawing.",
+    "choice", "SOLUTION", Kind.CHOICE, "Space shows the next solution; the others are dotted in the drawing."
 )
 """The solution that a LINE, an ARC or a run of them takes; a screen shows this field only if there is a choice."""
 

@@ -78,7 +78,7 @@ def farthest(pairs: Pairs, intervals: Intervals, most: float = inf) -> Farthest:
     index = pairs.stations[1:-1].searchsorted(np.array((intervals.first, intervals.last)))
     begins = changes((index[1] - index[0] + 1).cumsum() // BAND_PIECES).tolist()
     edges = [0, *begins[1:], len(intervals)]
-    batches = [_farthest(pairs, intervals.part(*rows), most) for rows in pairwise(edges)]
+    batches = [_farthest(pairs, intervals.keep(slice(*rows)), most) for rows in pairwise(edges)]
     columns = zip(*((far.place, far.point, far.apart, far.near) for far in batches), strict=True)
     return Farthest(*(np.concatenate(column) for column in columns))
 

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
 from dataclasses import dataclass, replace
 from math import inf
 from typing import Final
@@ -19,7 +18,7 @@ from core.verify.pairs import Pairs, measured, uneven_slack
 from core.verify.verdict import Approach, Gouge
 
 PAIRS_AT_A_TIME: Final = 2_000
-"""Gouging pairs that are processed at a time."""
+"""Gouging pairs that are processed at a time, which bounds the memory in use."""
 
 LOOP_GAP: Final = 1.0
 """Millimeters inserted between two loops, far more than the rounding between ends that touch."""
@@ -50,16 +49,11 @@ def gouging(pairs: Pairs, limit: float) -> Gouging:
         none = np.zeros(0)
         return Gouging(NO_INTERVALS, none, none, near, near)
     gaps = LOOP_GAP * _loops(pairs.pieces).astype(np.float64)
-    deepest = [_deepest(pairs, _near_parts(pairs, rows, limits[rows]), gaps) for rows in _some_at_a_time(near)]
+    some_at_a_time = (near[first : first + PAIRS_AT_A_TIME] for first in range(0, len(near), PAIRS_AT_A_TIME))
+    deepest = [_deepest(pairs, _near_parts(pairs, rows, limits[rows]), gaps) for rows in some_at_a_time]
     parts = _deepest(pairs, joined(deepest), gaps)
     intervals = Intervals(parts.first, parts.last)
     return Gouging(intervals, parts.middle, parts.apart, pairs.i[parts.pair], pairs.j[parts.pair])
-
-
-def _some_at_a_time(rows: Rows) -> Iterator[Rows]:
-    """Yield the rows in order, PAIRS_AT_A_TIME at a time, which bounds the memory in use."""
-    for first in range(0, len(rows), PAIRS_AT_A_TIME):
-        yield rows[first : first + PAIRS_AT_A_TIME]
 
 
 def _near_parts(pairs: Pairs, rows: Rows, limit: Floats) -> Parts:

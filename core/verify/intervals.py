@@ -40,13 +40,9 @@ class Intervals:
         inside[inside] = (s[inside] > self.first[owner[inside]]) & (s[inside] < self.last[owner[inside]])
         return inside
 
-    def keep(self, chosen: Flags | Rows) -> Intervals:
+    def keep(self, chosen: Flags | Rows | slice) -> Intervals:
         """Return the intervals for which `chosen` (k,) is True, or those of these indices."""
         return Intervals(self.first[chosen], self.last[chosen])
-
-    def part(self, first: int, last: int) -> Intervals:
-        """Return intervals first ... last - 1."""
-        return Intervals(self.first[first:last], self.last[first:last])
 
     def cut(self, cuts: Floats) -> Intervals:
         """Split the intervals at these places."""

@@ -122,18 +122,17 @@ def keeping(pairs: Pairs, radius: float) -> Flags:
 def along(pairs: Pairs, limit: Floats) -> Flags:
     """True for pairs whose other piece is surely within the limit of all of the piece: its start, middle and end are
     within the limit, and both are lines or concentric arcs."""
-    near: Flags = pairs.from_piece.max(axis=0) <= limit
-    return near & (_straight(pairs) | concentric(pairs))
+    return (pairs.from_piece.max(axis=0) <= limit) & _alike(pairs)
 
 
 def covering(pairs: Pairs, limit: Floats) -> Flags:
     """True for pairs whose piece is surely within the limit of all of the other piece."""
-    near: Flags = pairs.from_other.max(axis=0) <= limit
-    return near & (_straight(pairs) | concentric(pairs))
+    return (pairs.from_other.max(axis=0) <= limit) & _alike(pairs)
 
 
-def _straight(pairs: Pairs) -> Flags:
-    return ~(pairs.pieces.arcs[pairs.i] | pairs.others.arcs[pairs.j])
+def _alike(pairs: Pairs) -> Flags:
+    """True for pairs of lines and for pairs of concentric arcs."""
+    return ~(pairs.pieces.arcs[pairs.i] | pairs.others.arcs[pairs.j]) | concentric(pairs)
 
 
 def concentric(pairs: Pairs) -> Flags:

@@ -89,9 +89,9 @@ def _unjudged(arc: UnevenArc | None) -> Finding:
         return Finding("UNJUDGED", Severity.ERROR, text)
     which = "segment" if arc.on_surface else "path of segment"
     if isfinite(arc.difference):
-        text = f"Not judged: the arc's radii at start and end, in {which} {_number(arc.number)}, differ by {{value}}."
+        text = f"Not judged: the arc's radii at start and end, in {which} {arc.number:g}, differ by {{value}}."
         return Finding("UNJUDGED", Severity.ERROR, text, segment=arc.number, value=arc.difference)
-    text = f"Not judged: the arc in {which} {_number(arc.number)} may be empty or a full circle."
+    text = f"Not judged: the arc in {which} {arc.number:g} may be empty or a full circle."
     return Finding("UNJUDGED", Severity.ERROR, text, segment=arc.number)
 
 
@@ -108,16 +108,12 @@ def _gouge(gouge: Gouge, names: Names, radius: float) -> Finding:
     return Finding(
         "GOUGE",
         Severity.ERROR,
-        f"GOUGE {depth} deep in segment {_number(gouge.surface_number)} at X {{x}} Y {{y}}, by {move}.",
+        f"GOUGE {depth} deep in segment {gouge.surface_number:g} at X {{x}} Y {{y}}, by {move}.",
         segment=gouge.surface_number,
         at=gouge.surface_at,
         value=gouge.depth,
         lengths=(gouge.extent, LAST_INCH_DIGIT) if fine else (gouge.extent,),
     )
-
-
-def _number(number: float) -> str:
-    return f"{number:g}"
 
 
 def _wrong_side(verdict: Verdict, surface: Path) -> tuple[Finding, ...]:
@@ -157,10 +153,10 @@ def _over_run(over_run: OverRun) -> Finding:
     if not over_run.doubtful:
         text = "Over-run at X {x} Y {y}: the ends are lead-in and lead-out."
         return Finding("OVER_RUN", Severity.INFO, text, at=over_run.at)
-    length, on = max(over_run.lead_in, over_run.lead_out), _number(over_run.last_number)
+    length, on = max(over_run.lead_in, over_run.lead_out), f"{over_run.last_number:g}"
     text = f"START is on segment {on}; the last {{value}}, past START, is taken for lead-out. Check START."
     if over_run.lead_in > over_run.lead_out:
-        on = _number(over_run.first_number)
+        on = f"{over_run.first_number:g}"
         text = f"The contour ends on segment {on}; the first {{value}}, before it, is taken for lead-in. Check START."
     return Finding("OVER_RUN", Severity.WARNING, text, at=over_run.at, value=length)
 
@@ -201,9 +197,7 @@ def _equal_corners(verdict: Verdict, surface: Path) -> list[list[int]]:
 
 def _corners(corners: Sequence[Uncut]) -> Finding:
     """Return one finding on equal inside corners sharper than the cutter, with the first one's segment and place."""
-    named = ", ".join(
-        f"{_number(corner.first_number)}-{_number(corner.last_number)}" for corner in corners[:MAX_NAMED_CORNERS]
-    )
+    named = ", ".join(f"{corner.first_number:g}-{corner.last_number:g}" for corner in corners[:MAX_NAMED_CORNERS])
     more = f" and {len(corners) - MAX_NAMED_CORNERS} more" if len(corners) > MAX_NAMED_CORNERS else ""
     areas = [corner.area for corner in corners if corner.area is not None]
     thick = "{0}" if corners[0].thickness >= SMALLEST_SHOWN_LENGTH else "less than {1}"
@@ -245,10 +239,10 @@ def _uncut(uncut: Uncut, surface: Path) -> Finding:
 
 def _segments(uncut: Uncut, surface: Path) -> str:
     """Name the segments of a stretch, from the one it begins on to the one it ends on."""
-    first, last = _number(uncut.first_number), _number(uncut.last_number)
+    first, last = f"{uncut.first_number:g}", f"{uncut.last_number:g}"
     if first == last:
         return f"segment {first}"
     if uncut.first_number < uncut.last_number:
         return f"segments {first}-{last}"
-    through = "" if uncut.first_number == surface.numbers[-1] else f"-{_number(float(surface.numbers[-1]))}"
+    through = "" if uncut.first_number == surface.numbers[-1] else f"-{float(surface.numbers[-1]):g}"
     return f"segments {first}{through} and over START to {last}"

@@ -220,7 +220,7 @@ def _ends_passed(pairs: Pairs, intervals: Intervals, surface: Sided) -> Floats:
 def _between_arms(pairs: Pairs, parts: Intervals, surface: Sided) -> Floats:
     """Return where these parts change sides without meeting a wall: halfway between two arms of an open contour, from
     the part's side of one arm to the cutter's side of the other."""
-    batches = [parts.part(first, first + PARTS_AT_A_TIME) for first in range(0, len(parts), PARTS_AT_A_TIME)]
+    batches = [parts.keep(slice(first, first + PARTS_AT_A_TIME)) for first in range(0, len(parts), PARTS_AT_A_TIME)]
     return np.concatenate((np.zeros(0), *(_changes_of_side(pairs, batch, surface) for batch in batches)))
 
 

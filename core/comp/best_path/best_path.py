@@ -14,7 +14,6 @@ from typing import Final
 
 import numpy as np
 
-from core.comp.best_path.clearance import clear_slices
 from core.comp.best_path.prepared_contour import PreparedContour, Walls, crosses_itself, prepare_contour
 from core.comp.best_path.raw_offset import RawOffset, raw_offset
 from core.comp.best_path.slices import sliced
@@ -65,7 +64,10 @@ def best_path(contour: Path, side: Side, radius: float, *, closed: bool) -> Best
     if cut is None:
         return BestPath((), (), (*findings, TANGLED))
     walls = Walls.of(surface.path)
-    cut = clear_slices(raw, cut, walls, radius)
+    # the cutter is clear of the surface along all of a slice or nowhere; one that turns the wrong way is not clear
+    alive = (~cut.dead).nonzero()[0]
+    points, piece = cut.middles(raw, alive)
+    cut = cut.take(alive[walls.clear(points, raw.segment[piece], radius)])
     made = stitch(raw, cut, side.sign, walls, radius)
     return _best(raw, made, surface, findings)
 

@@ -10,11 +10,12 @@ import numpy as np
 
 from core.comp import findings as comp_findings
 from core.finding import Finding
+from core.geometry.distance import distance
 from core.geometry.intersect import Meeting, meet
-from core.geometry.nearby import BoxTree, near_pairs, near_pairs_within
+from core.geometry.nearby import BoxTree, near_pairs, near_pairs_within, point_boxes
 from core.geometry.path import EMPTY, Flags, Floats, Path, Points, Rows, as_complex, coordinates, next_in_ring
 from core.geometry.piece_arrays import PieceArrays, even_centers, piece_arrays
-from core.tolerance import JOINED, ON_PATH
+from core.tolerance import CLEAR, JOINED, ON_PATH
 
 _UNDER_HALF_TURN: Final = 3.1
 """Radians, safely under half a turn: with a sharper corner the angle does not tell whether it turns left or right."""
@@ -116,6 +117,35 @@ class Walls:
         """Make the walls of a surface."""
         pieces = piece_arrays(path)
         return Walls(path, pieces, BoxTree.of(pieces.boxes))
+
+    def clear(self, points: Points, segments: Rows, radius: float) -> Flags:
+        """Return (k,) True for points that are no nearer to any piece of the surface than the radius, within CLEAR.
+
+        `segments` (k,) are the pieces that the points were offset from: most points that are not clear are too near to
+        a vertex close to that piece.
+        """
+        good = _clear_of_vertices(points, segments, as_complex(self.path.points), radius)
+        rows = good.nonzero()[0]
+        if len(rows):
+            spots = points[rows]
+            for i, j in near_pairs(point_boxes(spots), self.tree, radius):
+                good[rows[i[distance(self.pieces.take(j), spots[i]) < radius - CLEAR]]] = False
+        return good
+
+
+def _clear_of_vertices(points: Points, segments: Rows, vertices: Points, radius: float) -> Flags:
+    """True for points that are clear of the vertices 1, 2, 4, 8 ... segments ahead and back, until none is near."""
+    good = np.ones(len(points), np.bool_)
+    step, near = 1, True
+    while near and step < len(vertices):
+        near = False
+        for shift in (step, -step):
+            known = np.minimum(np.maximum(segments + shift, 0), len(vertices) - 1)
+            apart = np.abs(points - vertices[known])
+            near |= bool((good & (apart < 2.0 * radius) & (known == segments + shift)).any())
+            good &= apart >= radius - CLEAR
+        step *= 2
+    return good
 
 
 def crosses_itself(path: Path, *, closed: bool) -> tuple[float, float] | None:

@@ -52,11 +52,6 @@ class RawOffset:
         """All pieces, without a copy."""
         return Pieces(self.start, self.end, self.center, self.turns)
 
-    @property
-    def next_in_row(self) -> Flags:
-        """(m,) True for pieces that are followed by the piece in the next row."""
-        return self.following == np.arange(1, len(self) + 1)
-
     def take(self, marked: Flags) -> RawOffset:
         """Return the pieces that are `marked` (m,); pieces whose following piece is dropped have none."""
         columns = {field.name: getattr(self, field.name)[marked] for field in fields(self)}

@@ -164,13 +164,12 @@ class Slices:
 class _Strands(NamedTuple):
     """Strands are runs of smoothly joined side pieces: their first pieces, their last pieces and their end nodes.
 
-    A strand that another one follows ends at that one's first node.  `nodes` is the number of nodes reserved for them.
+    A strand that another one follows ends at that one's first node.  Each has two nodes of its own.
     """
 
     heads: Rows
     tails: Rows
     ends: Rows
-    nodes: int
 
 
 class _Stations(NamedTuple):
@@ -202,7 +201,7 @@ def sliced(raw: RawOffset, sign: int) -> Slices | None:
         return None
     strands = _strands(raw)
     points, outer = _nodes(raw, met, strands)
-    stations = _stations(raw, met, strands.nodes)
+    stations = _stations(raw, met, 2 * len(strands.heads))
     del met
     twin, other = stations.of(~raw.side).twins()
     stations = stations.of(raw.side)
@@ -229,7 +228,7 @@ def sliced(raw: RawOffset, sign: int) -> Slices | None:
 def _strands(raw: RawOffset) -> _Strands:
     """Return the strands of a raw offset; each full circle is a strand of its own."""
     pieces = raw.side.nonzero()[0]
-    goes_on = raw.smooth & raw.next_in_row & (raw.start != raw.end)
+    goes_on = raw.smooth & (raw.following == np.arange(1, len(raw) + 1)) & (raw.start != raw.end)
     goes_on[:-1] &= raw.start[1:] != raw.end[1:]
     begins = np.ones(len(pieces), np.bool_)
     begins[1:] = ~goes_on[pieces[:-1]]
@@ -239,7 +238,7 @@ def _strands(raw: RawOffset) -> _Strands:
     after = raw.following[tails]
     joined = (after >= 0) & raw.side[after]
     ends = np.where(joined, np.searchsorted(heads, after), np.arange(count) + count)
-    return _Strands(heads, tails, ends, 2 * count)
+    return _Strands(heads, tails, ends)
 
 
 def _stations(raw: RawOffset, met: Intersections, nodes: int) -> _Stations:

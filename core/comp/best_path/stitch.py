@@ -13,7 +13,6 @@ from math import sqrt
 
 import numpy as np
 
-from core.comp.best_path.clearance import clear
 from core.comp.best_path.prepared_contour import Walls
 from core.comp.best_path.raw_offset import RawOffset
 from core.comp.best_path.slices import Slices
@@ -157,7 +156,7 @@ def _without_overlaps(raw: RawOffset, cut: Slices, following: Rows, walls: Walls
     stops = np.where(over > 0.0, raw.at(until, end[rows]), cut.points[last[rows]])
     for _ in range(_CUT_BACKS):
         spots, segments = np.append(stops, starts), raw.segment[np.append(until, piece)]
-        blocked, gaps = ~clear(spots, segments, walls, radius), np.abs(stops - starts)
+        blocked, gaps = ~walls.clear(spots, segments, radius), np.abs(stops - starts)
         if not blocked.any():
             break
         end[rows] -= np.where(blocked[: len(rows)], np.minimum(gaps, (end[rows] - low) / 2.0), 0.0)
