@@ -50,7 +50,7 @@ def advised(block: DerivedBlock, program: Program, table: Table, progress: Progr
 
 def times_in_words(derived: Derived) -> tuple[str, dict[int, str]]:
     """Return the total time, and the cut, rapid and total times of each postable block, as texts."""
-    from core.output.cutting_times import block_times, minutes_text, program_times, times_text
+    from core.output.passes import block_times, minutes_text, program_times, times_text
     from core.pipeline.jobs import jobs
 
     ready = {block.number for block in derived.blocks if block.postable}

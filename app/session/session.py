@@ -9,8 +9,7 @@ from dataclasses import dataclass, fields, replace
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from core.pipeline.derived import Derived, DerivedBlock
-from core.pipeline.fields_stage import solve_fields
+from core.pipeline.derived import Derived, DerivedBlock, solve_fields
 from core.program.edit import FIRST_START, SEGMENT_FIELD, FormPlace, is_empty
 from core.program.history import History, splice
 from core.program.model import Block, Program, Segment

@@ -15,10 +15,9 @@ from typing import Final
 import numpy as np
 
 from core.finding import Severity
-from core.output.cutting_times import block_times, program_times, times_text
 from core.output.grid import Grid
 from core.output.objections import OVERRIDE_PHRASE, posting_errors
-from core.output.passes import Cutter, Job, Pass, passes, rough_runs
+from core.output.passes import Cutter, Job, Pass, block_times, passes, program_times, rough_runs, times_text
 from core.units import Kind, Unit, from_mm, length_text, located_sentence, plain, show
 
 PAGE_COLUMNS: Final = 78

@@ -18,8 +18,7 @@ from core.advice.path_findings import (
     turning_back,
     z_step_findings,
 )
-from core.advice.remedies import largest_tool, without_blends
-from core.advice.why_not_clean import advice_for
+from core.advice.remedies import advice_for, largest_tool, without_blends
 from core.comp.best_path.best_path import BestPath, best_path
 from core.comp.best_path.separation import separation
 from core.comp.blend_moves import blend_in, blend_out
@@ -30,8 +29,7 @@ from core.output.grid import Grid
 from core.output.objections import OVERRIDABLE_CODES, job_errors
 from core.output.passes import z_steps
 from core.pipeline.block_cuts import with_block_cuts
-from core.pipeline.derived import Derived, DerivedBlock
-from core.pipeline.fields_stage import solve_block_fields
+from core.pipeline.derived import Derived, DerivedBlock, solve_block_fields
 from core.pipeline.jobs import MAX_SIDE_PASSES, job, parameter, stocks
 from core.program.model import PathChoice, Program
 from core.progress import Progress, part, silent

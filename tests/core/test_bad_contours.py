@@ -12,7 +12,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from core.advice.lookahead_table import CuttingSetup, judge_lookaheads
-from core.advice.why_not_clean import advice_for
+from core.advice.remedies import advice_for
 from core.comp.best_path.best_path import best_path
 from core.comp.compensate import compensate, compensate_all
 from core.finding import Severity

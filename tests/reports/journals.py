@@ -20,7 +20,7 @@ from app.documents.document_service import DocumentService, Opened
 from app.documents.journal_file import journal_path, lines
 from app.documents.questions import RESTORE
 from app.documents.unsaved_work import file_of_copy
-from core.pipeline.fields_stage import solve_fields
+from core.pipeline.derived import solve_fields
 from tests.app.documents.typist import DEAD, TIME, started
 from tests.app.nc_lines import inserted
 

@@ -15,10 +15,9 @@ from typing import Final
 import numpy as np
 
 from core.comp.best_path.prepared_contour import PreparedContour, Walls, crosses_itself, prepare_contour
-from core.comp.best_path.raw_offset import RawOffset, raw_offset
+from core.comp.best_path.raw_offset import RawOffset, raw_offset, trimmed
 from core.comp.best_path.slices import sliced
 from core.comp.best_path.stitch import StitchedSlices, chains, path_of_slices, stitch
-from core.comp.best_path.trim import trimmed
 from core.finding import Finding, Severity
 from core.geometry.path import Path, Rows
 from core.geometry.piece import Side

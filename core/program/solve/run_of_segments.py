@@ -20,11 +20,10 @@ from core.program.fields import form_of
 from core.program.model import ArcSegment, CornerSegment, LineSegment, Segment
 from core.program.solve.reading import Reading, heading_at
 from core.program.solve.run import reasons
-from core.program.solve.run.branch import Branch
+from core.program.solve.run.branch import MAX_RUN_LENGTH, Branch, Element, Parallel, Run
 from core.program.solve.run.fitting_number import with_fitting_number
 from core.program.solve.run.from_pick import Picked, picked_answers
 from core.program.solve.run.search import Search, search
-from core.program.solve.run.typed_run import MAX_RUN_LENGTH, Element, Parallel, Run
 from core.program.solve.segment import TURNS, Carried, Draft, SegmentResult, axis_kept_from, calculate, draft, drafted
 from core.program.solve.solved import Origin, RunAnswer, SolvedRun
 from core.tolerance import JOINED

@@ -6,7 +6,7 @@ from dataclasses import replace
 
 from app.documents.programs import empty_program
 from app.session.session import Session, changed
-from core.pipeline.fields_stage import solve_fields
+from core.pipeline.derived import solve_fields
 from core.program.edit import SEGMENT_FIELD, FormPlace
 from core.program.model import LineSegment, Number, Program
 

@@ -12,8 +12,7 @@ from hypothesis import example, given, settings
 from hypothesis import strategies as st
 
 from core.advice.lookahead_table import CuttingSetup, judge_lookaheads
-from core.advice.remedies import restarted
-from core.advice.why_not_clean import MAX_NAMED_PLACES, advice_for
+from core.advice.remedies import MAX_NAMED_PLACES, advice_for, restarted
 from core.comp.lookahead import calculated
 from core.finding import Finding, Severity
 from core.geometry.path import Path

@@ -10,8 +10,7 @@ import numpy as np
 import pytest
 
 from core.comp.best_path.best_path import best_path
-from core.comp.best_path.raw_offset import raw_offset
-from core.comp.best_path.trim import trimmed
+from core.comp.best_path.raw_offset import raw_offset, trimmed
 from core.geometry.path import Path, as_complex
 from core.geometry.piece import Side
 from tests.core.comp.families import joined

@@ -6,7 +6,7 @@ from math import pi
 import pytest
 
 from core.geometry.piece import Turn
-from core.output.cutting_times import Times, block_times, minutes_text, program_times, times_text
+from core.output.passes import Times, block_times, minutes_text, program_times, times_text
 from tests.core.output.jobs import INCH, arc, floors, job, path_of, polyline
 
 SLOT = job(polyline((0, 0), (2, 0)), peck_depth=0.0)

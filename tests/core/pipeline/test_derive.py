@@ -10,8 +10,7 @@ from core.finding import Severity
 from core.geometry.path import Path
 from core.geometry.piece import Side
 from core.pipeline.derive import better_path, derive, derive_block, with_better_paths
-from core.pipeline.derived import Tag
-from core.pipeline.fields_stage import solve_fields
+from core.pipeline.derived import Tag, solve_fields
 from core.pipeline.jobs import stocks
 from core.program.edit import set_unit
 from core.program.model import CutterComp, LineSegment, Number, PathChoice, ProgramParameters, Unread, changed

@@ -8,8 +8,7 @@ import pytest
 
 from core.finding import Finding, Severity
 from core.pipeline.derive import derive
-from core.pipeline.derived import DerivedBlock
-from core.pipeline.fields_stage import solve_fields
+from core.pipeline.derived import DerivedBlock, solve_fields
 from core.pipeline.jobs import stocks
 from core.program.model import BlendSegment, CutterComp, LineSegment, Number, ProgramParameters, Segment, Unread
 from core.units import Unit, sentence

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from app.documents.files import load
 from core.pipeline.derive import derive
-from core.pipeline.fields_stage import solve_fields
+from core.pipeline.derived import solve_fields
 from core.pipeline.setup_sheet import sheet_page, sheet_text
 from core.program.edit import new_block
 from core.program.model import Program

@@ -6,7 +6,7 @@ from collections.abc import Mapping, Sequence
 from typing import Any
 
 from core.pipeline.command_output import path_document
-from core.pipeline.fields_stage import solve_fields
+from core.pipeline.derived import solve_fields
 from core.program.file.read import loads
 from core.program.model import Program
 from core.program.solve.block import solve_block

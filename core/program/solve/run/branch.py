@@ -1,7 +1,8 @@
-"""A branch of a run's solution holds what is known of each element and joint, and derives what needs no choice.
+"""A run is what is typed of its elements; a branch of its solution holds what is known of each element and joint.
 
-Joint k lies before element k; joint 0 is the run's start.  Each value is None until known, and never changes later.
-If a value can be derived in two ways, `proof` checks at the end that they agree, by walking the chain.
+A branch derives what needs no choice.  Joint k lies before element k; joint 0 is the run's start.  Each value is None
+until known, and never changes later.  If a value can be derived in two ways, `proof` checks at the end that they agree,
+by walking the chain.
 
 An anchor is a known point A to which a joint P is tied rigidly: P = A + u t + v n, where t and n are the direction and
 left normal of the contour as it arrives at P (or departs from it).  A known joint is an anchor with u = v = 0; the
@@ -11,15 +12,95 @@ anchors to their other end.  Conclusions from anchors hold for chains of any sha
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
+from dataclasses import dataclass
+from functools import cached_property
 from math import atan2, cos, hypot, pi, sin, tau
 from typing import Final, NamedTuple
 
 from core.finding import Finding
 from core.geometry.oriented import Circle, Locus, OrientedLine, direction, line_through, meeting, normal, touch_point
-from core.geometry.piece import Point
-from core.program.solve.run.typed_run import Run
+from core.geometry.piece import Point, Turn
 from core.tolerance import ARC_RADII, JOINED, MIN_INDEPENDENT_SINE
+
+MAX_RUN_LENGTH: Final = 12
+"""The largest number of LINEs and ARCs that are solved together."""
+
+POINT_FIELDS: Final = frozenset(("point_x", "point_y", "point_dist"))
+"""The data that count as one together, as far as they give a point."""
+
+
+Parallel = int | OrientedLine
+"""PARALLEL TO: the index of the line in the run, or the line itself if it lies before the run."""
+
+
+@dataclass(frozen=True)
+class Element:
+    """A LINE (`turn` NONE) or an ARC of a run.
+
+    `typed` are its data by name.  `link` is the angle from the final heading of the element before to its own initial
+    heading: 0 for TANGENT, None if nothing is typed about it.
+    """
+
+    number: int
+    turn: Turn
+    typed: tuple[tuple[str, float], ...] = ()
+    link: float | None = None
+    parallel: Parallel | None = None
+
+    @cached_property
+    def known(self) -> Mapping[str, float]:
+        """The data by name, in millimeters and radians; names of relative data end in `_inc`."""
+        return dict(self.typed)
+
+    @property
+    def point(self) -> Point | None:
+        """The point that the element's line passes at DISTANCE, or that its circle passes through."""
+        if "point_x" in self.known and "point_y" in self.known:
+            return self.known["point_x"], self.known["point_y"]
+        return None
+
+    @property
+    def missing(self) -> int:
+        """The number of values that it needs beside its start and its typed data; negative if more are typed."""
+        relations = sum(value is not None for value in (self.point, self.parallel, self.link))
+        return (3 if self.turn else 2) - len(self.known.keys() - POINT_FIELDS) - relations
+
+
+@dataclass(frozen=True)
+class Run:
+    """Elements that are solved together, from `start`, after a piece that ends in direction `heading`."""
+
+    start: Point
+    heading: float | None
+    elements: tuple[Element, ...]
+
+    @property
+    def missing(self) -> int:
+        """The least number of data still needed; 0 or less if there are enough."""
+        return sum(element.missing for element in self.elements)
+
+    @property
+    def enough(self) -> bool:
+        """True if the data may suffice: counted for the whole run, and for its last elements, however many."""
+        rest = 0
+        for element in reversed(self.elements):
+            rest += element.missing
+            if rest > 0:
+                return False
+        return True
+
+    @property
+    def size(self) -> float:
+        """The greatest of the X and Y ranges of its typed points and its typed lengths and radii."""
+        xs, ys, sizes = [self.start[0]], [self.start[1]], [0.0]
+        for element in self.elements:
+            known = element.known
+            xs += [known[name] for name in ("x_end", "x_center", "point_x") if name in known]
+            ys += [known[name] for name in ("y_end", "y_center", "point_y") if name in known]
+            sizes += [known[name] for name in ("length", "radius") if name in known]
+        return max(max(xs) - min(xs), max(ys) - min(ys), *sizes)
+
 
 Numbers = list[float | None]
 

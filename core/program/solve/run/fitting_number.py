@@ -13,8 +13,8 @@ from typing import Final
 from core.finding import Finding
 from core.program.solve.reading import ANGLE_FIELDS, measured
 from core.program.solve.run import reasons
+from core.program.solve.run.branch import Run
 from core.program.solve.run.search import GRAZE_SHIFT, search
-from core.program.solve.run.typed_run import Run
 
 TRIED_FACTORS: Final = tuple(1.08**step for step in range(1, 60))
 """The factors by which a radius is enlarged and reduced."""

@@ -16,10 +16,10 @@ from math import atan2, cos, dist, hypot, pi, sin, sqrt, tau
 from typing import Final
 
 from core.geometry.piece import Arc, Point
+from core.program.solve.run.branch import Run
 from core.program.solve.run.newton import ChainProblem, Numbers, newton_root, norm, slopes
 from core.program.solve.run.proof import objections
 from core.program.solve.run.search import MAX_SAME_DISTANCE, Answer, same_pieces, search
-from core.program.solve.run.typed_run import Run
 
 STARTS_PER_PICK: Final = 48
 

@@ -15,9 +15,8 @@ from core.geometry import construct
 from core.geometry.oriented import OrientedLine
 from core.geometry.piece import Arc, Line, Piece, Point
 from core.program.solve.reading import heading_at
-from core.program.solve.run.branch import Branch
+from core.program.solve.run.branch import Branch, Element, Run
 from core.program.solve.run.proof import Pieces, objections
-from core.program.solve.run.typed_run import Element, Run
 from core.tolerance import ARC_RADII, JOINED
 
 MAX_STEPS: Final = 30

@@ -16,8 +16,7 @@ from core.program.fields import LARGEST_LENGTH
 from core.program.solve.reading import ANGLE_FIELDS, heading_at, measured
 from core.program.solve.rules import turns_alike
 from core.program.solve.run import reasons
-from core.program.solve.run.branch import Branch
-from core.program.solve.run.typed_run import Element, Run
+from core.program.solve.run.branch import Branch, Element, Run
 from core.tolerance import AGREES, ARC_RADII, CLOSED, JOINED, LARGEST_COORDINATE
 
 Pieces = tuple[Piece, ...]

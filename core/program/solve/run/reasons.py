@@ -12,8 +12,7 @@ from core.geometry.oriented import Circle, Locus
 from core.geometry.piece import Point, Turn
 from core.program.fields import Form, field_of
 from core.program.solve.rules import angle_text, counted_like
-from core.program.solve.run.branch import Branch
-from core.program.solve.run.typed_run import Element, Run
+from core.program.solve.run.branch import Branch, Element, Run
 from core.tolerance import ARC_RADII
 
 

@@ -9,11 +9,10 @@ from typing import Final
 
 from core.finding import Finding
 from core.geometry.piece import Piece, Point
-from core.program.solve.run.branch import Branch, DeadEnd
+from core.program.solve.run.branch import Branch, DeadEnd, Run
 from core.program.solve.run.newton import polished
 from core.program.solve.run.proof import Pieces, chain_of
 from core.program.solve.run.steps import next_branches
-from core.program.solve.run.typed_run import Run
 
 MAX_SAME_DISTANCE: Final = 1e-6
 """Millimeters within which two answers count as the same."""
