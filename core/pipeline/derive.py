@@ -25,6 +25,7 @@ from core.comp.blend_moves import blend_in, blend_out
 from core.comp.compensated import CenterPath, Compensated
 from core.finding import Finding, Severity
 from core.geometry.path import Path
+from core.geometry.piece import Side
 from core.output.grid import Grid
 from core.output.objections import OVERRIDABLE_CODES, job_errors
 from core.output.passes import z_steps
@@ -221,7 +222,8 @@ def remedy_for_gouge(block: DerivedBlock, program: Program) -> Finding | None:
         effect, lengths = table.row(table.recommended).effect
         text = f"Block {block.number}: CUTCOMP LOOKAHEAD {table.recommended} {effect}."
         return Finding("LOOKAHEAD_FITS", Severity.INFO, text, field="lookahead", lengths=lengths)
-    if setup.blend and judge_lookaheads(without_blends(setup)).row(block.lookahead.value).clean:
+    bare = without_blends(setup)
+    if bare is not None and judge_lookaheads(bare).row(block.lookahead.value).clean:
         return None
     fits = largest_tool(setup)
     if fits is None:
