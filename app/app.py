@@ -259,7 +259,7 @@ class CutcompApp(TransformActions):
         """Show MILL CONTOUR, the form of the block with the cursor."""
         self.bring(ContourScreen)
 
-    def _form_in_front(self) -> ContourScreen | None:
+    def form_in_front(self) -> ContourScreen | None:
         """Take what is half-typed and bring MILL CONTOUR to the front; None if either is refused or waits."""
         if self.take_typed():
             self.action_contour()
@@ -268,16 +268,6 @@ class CutcompApp(TransformActions):
         self.screen.follow(self.session)
         self.screen.follow_displayed(self.displayed)
         return self.screen
-
-    def show_panel(self, name: str) -> None:
-        """Show the list of segments or of findings on MILL CONTOUR."""
-        if (form := self._form_in_front()) is not None:
-            form.open_panel(name)
-
-    def show_finding(self, by: int) -> None:
-        """Show the next or previous finding on MILL CONTOUR."""
-        if (form := self._form_in_front()) is not None:
-            form.step_finding(by, form.in_hand)
 
     def action_program(self) -> None:
         """Show PROGRAM, the list of blocks."""

@@ -91,17 +91,16 @@ def make_app(
     """Return the App on a document, set up for the terminal and with the settings of last time."""
     from app.app import CutcompApp
     from app.file_actions import session_of
-    from app.terminal import character_set, driver, key_sequences
-    from app.terminal.capabilities import monochrome
+    from app.terminal import capabilities, driver, key_sequences
 
     browser = in_browser()
     key_sequences.teach()
-    if not browser and monochrome(os.environ):
+    if not browser and capabilities.monochrome(os.environ):
         os.environ["NO_COLOR"] = "1"
     settings, trouble = load_settings(settings_file())
     if trouble and opened.notice is None:
         opened = replace(opened, notice=Notice(trouble, warning=True))
-    environment = character_set.operators_environment(os.environ)
+    environment = capabilities.operators_environment(os.environ)
     name, character_sets = (
         ("", driver.CHARACTER_SETS) if browser else driver.characters(environment, options.characters)
     )
@@ -125,7 +124,7 @@ def make_app(
         app.driver_class = BrowserDriver
     else:
         app.driver_class = driver.TerminalDriver
-        character_set.set_charset(sys.__stderr__, name)
+        capabilities.set_charset(sys.__stderr__, name)
     return app
 
 

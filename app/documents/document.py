@@ -6,7 +6,6 @@ from dataclasses import dataclass, field, replace
 from pathlib import Path
 from typing import ClassVar, Final, Self, TypeVar
 
-from app.documents import nc_journal
 from app.documents.files import MAX_PROGRAM_BYTES, Stamp
 from app.documents.journal import Journal, Kind, Place
 from app.documents.lock import Owner
@@ -99,9 +98,10 @@ class ContourDocument:
         return replace(self, file=saved.file, saved_program=saved.saved_program)
 
     def restored(self, journal: Journal) -> Self:
-        """Return the work of a journal with its cursor; raise ValueError if it is of an NC text."""
-        history, place = _history_of(journal), journal.place
-        match place:
+        """Return the work of a journal of this kind with its cursor."""
+        history = journal.work
+        assert isinstance(history, History)
+        match journal.place:
             case (int(block), int(segment), str(name)):
                 return replace(self, history=history, cursor=FormPlace(block, segment), field_name=name)
             case _:
@@ -109,13 +109,7 @@ class ContourDocument:
 
     def holds(self, journal: Journal) -> bool:
         """True if this is already the journal's program."""
-        return _history_of(journal).program == self.program
-
-
-def _history_of(journal: Journal) -> History:
-    if not isinstance(journal.work, History):
-        raise ValueError("a journal of an NC text")
-    return journal.work
+        return isinstance(journal.work, History) and journal.work.program == self.program
 
 
 @dataclass(frozen=True, eq=False, slots=True)
@@ -166,22 +160,16 @@ class NcDocument:
 
     def restored(self, journal: Journal) -> Self:
         """Return the work of a journal; if undoing it leads back to this text, nothing is unsaved there."""
-        text = _text_of(journal)
-        work = replace(text, origin=self.text.origin)
+        assert isinstance(journal.work, NcText)
+        work = replace(journal.work, origin=self.text.origin)
         if self.file.stamp is not None:
-            work = nc_journal.known_in_file(work, self.text)
+            work = work.known_in(self.text)
         row = journal.place[0] if journal.place else work.past[-1].row if work.past else 0
         return replace(self, text=work, row=row if isinstance(row, int) else 0)
 
     def holds(self, journal: Journal) -> bool:
         """True if these are already the journal's lines."""
-        return "".join(_text_of(journal).lines) == "".join(self.text.lines)
-
-
-def _text_of(journal: Journal) -> NcText:
-    if not isinstance(journal.work, NcText):
-        raise ValueError("a journal of a contour program")
-    return journal.work
+        return isinstance(journal.work, NcText) and "".join(journal.work.lines) == "".join(self.text.lines)
 
 
 Document = ContourDocument | NcDocument

@@ -26,7 +26,7 @@ from app.documents.files import (
     write_data,
 )
 from app.documents.journal import Head, Journal, Kind, beginning, continuing, records_between, same_edits
-from app.documents.journal_file import JournalFile, journal_path, new_path, reason_set_aside, set_aside
+from app.documents.journal_file import JournalFile, Record, journal_path, new_path, reason_set_aside, set_aside
 from app.documents.lock import Lock, Owner, alive, held_by, myself, release, take, take_over, taken_by
 from app.documents.paths import (
     as_program,
@@ -114,7 +114,7 @@ class Saved(Generic[AnyDocument]):
 
 @dataclass(slots=True)
 class _OpenDocument:
-    """One open document as it was last kept, with its journal and its lock.
+    """One open document as it was last kept, with its journal and its lock; `me` and `state` are the service's.
 
     `rewrite`: the journal must be rewritten from the current work.  `failing`: the last edit is not on disk.  `warned`:
     the operator knows that somebody has taken the document over.  `away`: the operator knows that the journal is not
@@ -122,6 +122,8 @@ class _OpenDocument:
     """
 
     latest: Document
+    me: Owner
+    state: Path
     journal: JournalFile | None = None
     lock: Lock | None = None
     rewrite: bool = False
@@ -129,6 +131,136 @@ class _OpenDocument:
     warned: bool = False
     away: bool = False
     copy: Path | None = None
+
+    def remember(self, document: AnyDocument) -> AnyDocument:
+        self.latest = document
+        return document
+
+    # ---- the lock
+
+    def take_lock(self, now: str) -> Owner | None:
+        """Lock the file, or return who else has it; where no lock can be written, no save can be written either."""
+        self.lock, path = None, self.latest.file.path
+        if path is None:
+            return None
+        with suppress(OSError):
+            lock = take(path, replace(self.me, since=now))
+            if isinstance(lock, Owner):
+                return lock
+            self.lock = lock
+            # a killed process may have left a new journal that it had not yet renamed
+            new_path(journal_path(path)).unlink(missing_ok=True)
+        return None
+
+    def release_lock(self) -> None:
+        if self.lock is not None:
+            release(self.lock)
+
+    def warning_of_owner(self, now: str) -> str:
+        """Return once that somebody has taken the document over, empty otherwise."""
+        owner = None if self.lock is None or self.warned else taken_by(self.lock)
+        if owner is None:
+            return ""
+        self.warned = True
+        return f"{held_sentence(owner, now)} SAVE AS (Ctrl+K) keeps your work."
+
+    # ---- the journal
+
+    def write(self, before: Document, now: str) -> bool:
+        """Write the edits since `before` to the journal; return True if the old journal was gone.
+
+        Raise OSError or StoreError if they cannot be written, neither beside the file nor in the user's folder.
+        """
+        gone = self.journal is not None and self.journal.lost()
+        if gone and self.journal is not None:
+            self.journal.close()
+            self.journal = None
+        if self.journal is None:
+            self.begin(now)
+        else:
+            try:
+                self._continue(self.journal, before, now)
+            except (OSError, StoreError):
+                if not self._begin_elsewhere(now):
+                    raise
+        self.rewrite = False
+        return gone
+
+    def _continue(self, journal: JournalFile, before: Document, now: str) -> None:
+        document = self.latest
+        records = None if self.rewrite else records_between(before.work, document.work)
+        if records is not None and journal.length <= MAX_JOURNAL_GROWTH[document.kind]:
+            journal.add(continuing(records, document.place, now))
+            return
+        self.rewrite = True
+        journal.replace(self.all_records(now))
+
+    def all_records(self, now: str) -> Iterator[Record]:
+        """Return all work as the records of a new journal."""
+        document, path = self.latest, self.latest.file.path
+        head = Head(self.me, None if path is None else str(path.absolute()), document.file.stamp)
+        return beginning(document.kind, head, document.work, document.place, now)
+
+    def begin(self, now: str) -> None:
+        """Begin a journal with all work, beside the file if possible, else elsewhere; raise OSError if both fail."""
+        path = self.latest.file.path
+        self.journal = new_journal(journal_place(path, self.me, self.state), path)
+        try:
+            self.journal.add(self.all_records(now))
+        except OSError:
+            if not self._begin_elsewhere(now):
+                raise
+
+    def _begin_elsewhere(self, now: str) -> bool:
+        """Begin a journal with all work in the user's folder, then remove the one beside the file; False on failure."""
+        path = self.latest.file.path
+        if path is None or (self.journal is not None and self.journal.path.parent == self.state):
+            return False
+        try:
+            other = new_journal(elsewhere(path, self.state), path)
+            other.add(self.all_records(now))
+        except OSError:
+            return False
+        self.drop_journal()
+        self.journal = other
+        return True
+
+    def warning_of_journal(self, *, gone: bool) -> str:
+        """Return that the journal was gone, that it is not beside its file, and what was moved aside for it."""
+        journal, path = self.journal, self.latest.file.path
+        if journal is None:
+            return ""
+        aside, journal.aside = journal.aside, None
+        sentences = []
+        if gone:
+            sentences.append(
+                f"The journal of unsaved work was gone: all of it is in {printable_path(journal.path)} now."
+            )
+        elif path is not None and journal.path.parent == self.state and not self.away:
+            place = printable_path(str(journal.path.parent))
+            sentences.append(f"The folder of {printable(path.name)} takes nothing: unsaved work is kept in {place}")
+        self.away = self.away or journal.path.parent == self.state
+        if aside is not None:
+            sentences.append(f"{whole_name(aside)} holds what was left before; Ctrl+O lists it.")
+        return " ".join(sentences)
+
+    def drop_journal(self) -> None:
+        """Remove the journal, if there is one: its work is saved or abandoned."""
+        if self.journal is not None:
+            self.journal.remove()
+            self.journal = None
+
+    def leave_journal(self, now: str) -> None:
+        """Close the journal of unsaved work; try once more to write what failed before, as the disk may have room."""
+        try:
+            if self.journal is not None and (self.rewrite or self.journal.lost()):
+                self.begin(now)
+            elif self.journal is not None and self.journal.unwritten:
+                self.journal.add(())
+        except OSError:
+            self._begin_elsewhere(now)
+        if self.journal is not None:
+            self.journal.close()
 
 
 @dataclass(slots=True)
@@ -143,22 +275,21 @@ class DocumentService:
     clock: Callable[[], str] = times.now
     _open: dict[object, _OpenDocument] = field(default_factory=dict)
 
-    def _owner_now(self) -> Owner:
-        """Return this process as the owner of a file that it opens now."""
-        return replace(self.me, since=self.clock())
+    def _entry(self, document: Document) -> _OpenDocument:
+        return self._open.setdefault(document.file.opening, _OpenDocument(document, self.me, self.state))
 
     # ---- open
 
     def new(self, unit: Unit = Unit.IN, *, offers: bool = False) -> Opened[ContourDocument]:
         """Begin a program without a name; `offers` asks about unsaved work without a name, as at startup."""
         document = ContourDocument.of(empty_program(unit))
-        self._open[document.file.opening] = _OpenDocument(document)
+        self._entry(document)
         return self._next_offer(document) if offers else Opened(document)
 
     def example(self, name: str) -> Opened[ContourDocument]:
         """Open an example; SAVE cannot overwrite it, since it has no file until SAVE AS gives it a name."""
         document = ContourDocument.of(load(example(name)), title=name)
-        self._open[document.file.opening] = _OpenDocument(document)
+        self._entry(document)
         return Opened(document, Notice(f"Example {name}. Ctrl+S saves it under a name."))
 
     def open(self, path: Path, *, kept_copy: Path | None = None) -> Opened[Any] | Trouble:
@@ -241,39 +372,21 @@ class DocumentService:
         return ContourDocument.of(empty_program(program.unit), file)
 
     def _opened(self, document: AnyDocument, notice: Notice | None, kept_copy: Path | None) -> Opened[AnyDocument]:
-        entry = self._open[document.file.opening] = _OpenDocument(document)
-        holder = self._lock(entry)
+        entry = self._entry(document)
+        holder = entry.take_lock(self.clock())
         if holder is not None:
-            document = self._remember(entry, replace(document, file=replace(document.file, holder=holder)))
+            document = entry.remember(replace(document, file=replace(document.file, holder=holder)))
             return Opened(document, notice, Offer(questions.open_already(holder, self.clock()), kept_copy))
         if document.file.path is not None and document.file.stamp is not None:
             remove_killed_saves(document.file.path)
         opened = self._next_offer(document, kept_copy)
         return replace(opened, notice=opened.notice or notice)
 
-    def _remember(self, entry: _OpenDocument, document: AnyDocument) -> AnyDocument:
-        entry.latest = document
-        return document
-
-    def _lock(self, entry: _OpenDocument) -> Owner | None:
-        """Lock the file, or return who else has it; where no lock can be written, no save can be written either."""
-        entry.lock, path = None, entry.latest.file.path
-        if path is None:
-            return None
-        with suppress(OSError):
-            lock = take(path, self._owner_now())
-            if isinstance(lock, Owner):
-                return lock
-            entry.lock = lock
-            # a killed process may have left a new journal that it had not yet renamed
-            new_path(journal_path(path)).unlink(missing_ok=True)
-        return None
-
     # ---- offers
 
     def answer(self, document: AnyDocument, offer: Offer, word: str) -> Opened[AnyDocument]:
         """Apply the answer to an offer; GO BACK changes nothing, and the next start asks again."""
-        entry = self._open[document.file.opening]
+        entry = self._entry(document)
         match word, offer.path, offer.left:
             case questions.TAKE_OVER, path, _:
                 return self._take_over(entry, document, path)
@@ -350,14 +463,14 @@ class DocumentService:
         assert path is not None
         try:
             fresh = self._read(path, kept_copy)
-            lock = take_over(path, self._owner_now())
+            lock = take_over(path, replace(self.me, since=self.clock()))
         except (OSError, StoreError) as error:
             return Opened(document, Notice(f"It cannot be taken over: {_reason(error)}", warning=True))
         if not isinstance(fresh, type(document)):
             return Opened(document, Notice("It cannot be taken over: the file is of another kind now.", warning=True))
         entry.lock = lock
         state = replace(fresh.file, opening=document.file.opening)
-        taken = self._remember(entry, replace(fresh, file=state))
+        taken = entry.remember(replace(fresh, file=state))
         opened = self._next_offer(taken, kept_copy)
         notice = opened.notice or Notice(f"{name_of(taken)} is yours now.")
         return Opened(opened.document, notice, opened.offer)
@@ -369,7 +482,7 @@ class DocumentService:
         now = document.file
         stamp = journal.head.stamp if now.stamp is not None else None
         work = document.restored(journal)
-        work = self._remember(entry, replace(work, file=replace(now, stamp=stamp)))
+        work = entry.remember(replace(work, file=replace(now, stamp=stamp)))
         try:
             aside = self._journal_of_restored(entry, work, path, journal)
         except (OSError, StoreError) as error:
@@ -392,13 +505,13 @@ class DocumentService:
         place, aside = journal_place(work.file.path, self.me, self.state), None
         if replaced and path == place:
             entry.journal = new_journal(path, work.file.path)
-            entry.journal.replace(self._all_records(work))
+            entry.journal.replace(entry.all_records(self.clock()))
             return None
         if journal.damaged and mine and not living and wants_answer(path):
             aside = set_aside(path, "damaged") if path.exists() else None
         elif not replaced and path.exists():
             aside = self._move_aside(path, journal)
-        self._begin_journal(entry, work)
+        entry.begin(self.clock())
         if replaced:
             # all of it is in the new journal
             path.unlink(missing_ok=True)
@@ -440,111 +553,23 @@ class DocumentService:
     def keep(self, document: Document) -> Notice | None:
         """Write the edits since the last call to disk; call it before the next key is read."""
         closed = document.file.opening not in self._open
-        entry = self._open.setdefault(document.file.opening, _OpenDocument(document))
+        entry = self._entry(document)
         before, entry.latest = entry.latest, document
+        now = self.clock()
         if closed and document.unsaved:
             # edited while its closing waited for the disk: it is open again, with all of its work
-            self._lock(entry)
+            entry.take_lock(now)
         elif same_edits(before.work, document.work):
             return None
         try:
-            gone = self._write_journal(entry, before, document)
+            gone = entry.write(before, now)
         except (OSError, StoreError) as error:
             entry.failing = True
             return Notice(f"Not on disk: {_reason(error)} {SAVE_ELSEWHERE}", warning=True)
         was_failing, entry.failing = entry.failing, False
-        return (
-            self._taken_notice(entry)
-            or self._place_notice(entry, gone=gone)
-            or (Notice("Work is kept on the disk again.") if was_failing else None)
-        )
-
-    def _write_journal(self, entry: _OpenDocument, before: Document, document: Document) -> bool:
-        """Write the edits to a journal beside the file, else in the user's folder; True if the old journal was gone."""
-        gone = entry.journal is not None and entry.journal.lost()
-        if gone and entry.journal is not None:
-            entry.journal.close()
-            entry.journal = None
-        try:
-            if entry.journal is None:
-                self._begin_journal(entry, document)
-            else:
-                self._continue_journal(entry, entry.journal, before, document)
-        except (OSError, StoreError):
-            if not self._begin_elsewhere(entry, document):
-                raise
-        entry.rewrite = False
-        return gone
-
-    def _continue_journal(
-        self, entry: _OpenDocument, journal: JournalFile, before: Document, document: Document
-    ) -> None:
-        records = None if entry.rewrite else records_between(before.work, document.work)
-        if records is not None and journal.length <= MAX_JOURNAL_GROWTH[document.kind]:
-            journal.add(continuing(records, document.place, self.clock()))
-            return
-        entry.rewrite = True
-        journal.replace(self._all_records(document))
-
-    def _all_records(self, document: Document) -> Iterator[Any]:
-        """Return all work as the records of a new journal."""
-        return beginning(document.kind, self._head(document), document.work, document.place, self.clock())
-
-    def _head(self, document: Document) -> Head:
-        path = document.file.path
-        return Head(self.me, None if path is None else str(path.absolute()), document.file.stamp)
-
-    def _begin_journal(self, entry: _OpenDocument, document: Document) -> None:
-        """Begin a journal with all work, beside the file if possible, else elsewhere; raise OSError if both fail."""
-        path = document.file.path
-        entry.journal = new_journal(journal_place(path, self.me, self.state), path)
-        try:
-            entry.journal.add(self._all_records(document))
-        except OSError:
-            if not self._begin_elsewhere(entry, document):
-                raise
-
-    def _begin_elsewhere(self, entry: _OpenDocument, document: Document) -> bool:
-        """Begin a journal with all work in the user's folder, then remove the one beside the file; False on failure."""
-        path = document.file.path
-        if path is None or (entry.journal is not None and entry.journal.path.parent == self.state):
-            return False
-        try:
-            other = new_journal(elsewhere(path, self.state), path)
-            other.add(self._all_records(document))
-        except OSError:
-            return False
-        if entry.journal is not None:
-            entry.journal.remove()
-        entry.journal = other
-        return True
-
-    def _place_notice(self, entry: _OpenDocument, *, gone: bool) -> Notice | None:
-        """Say that the journal was gone, that it is not beside its file, and what was moved aside for it."""
-        journal, path = entry.journal, entry.latest.file.path
-        if journal is None:
-            return None
-        aside, journal.aside = journal.aside, None
-        sentences = []
-        if gone:
-            sentences.append(
-                f"The journal of unsaved work was gone: all of it is in {printable_path(journal.path)} now."
-            )
-        elif path is not None and journal.path.parent == self.state and not entry.away:
-            place = printable_path(str(journal.path.parent))
-            sentences.append(f"The folder of {printable(path.name)} takes nothing: unsaved work is kept in {place}")
-        entry.away = entry.away or journal.path.parent == self.state
-        if aside is not None:
-            sentences.append(f"{whole_name(aside)} holds what was left before; Ctrl+O lists it.")
-        return Notice(" ".join(sentences), warning=True) if sentences else None
-
-    def _taken_notice(self, entry: _OpenDocument) -> Notice | None:
-        """Say once that somebody has taken the document over."""
-        owner = None if entry.lock is None or entry.warned else taken_by(entry.lock)
-        if owner is None:
-            return None
-        entry.warned = True
-        return Notice(f"{held_sentence(owner, self.clock())} SAVE AS (Ctrl+K) keeps your work.", warning=True)
+        if warning := entry.warning_of_owner(now) or entry.warning_of_journal(gone=gone):
+            return Notice(warning, warning=True)
+        return Notice("Work is kept on the disk again.") if was_failing else None
 
     # ---- save
 
@@ -564,7 +589,7 @@ class DocumentService:
     def _save(
         self, document: AnyDocument, path: Path | None, agreed: frozenset[str]
     ) -> Saved[AnyDocument] | QuestionText | Trouble:
-        entry, file = self._open[document.file.opening], document.file.path
+        entry, file = self._entry(document), document.file.path
         if path is None and file is None:
             return Trouble(f"{name_of(document)} has no name yet. SAVE AS (Ctrl+K) gives it one.")
         target = file if path is None else resolved_name(path, file)
@@ -656,60 +681,37 @@ class DocumentService:
         before = document.file
         agreed = (before.link_agreed and path == before.path) or (link_agreed and _leads_elsewhere(path))
         state = replace(before, path=path, stamp=stamp_of_data(data), link_agreed=agreed)
-        saved = self._remember(entry, document.saved(state))
-        if entry.journal is not None:
-            entry.journal.remove()
-        entry.journal, entry.rewrite, entry.failing, entry.away = None, False, False, False
+        saved = entry.remember(document.saved(state))
+        entry.drop_journal()
+        entry.rewrite = entry.failing = entry.away = False
         if path != before.path:
-            saved = self._relock(entry, saved)
+            entry.release_lock()
+            entry.warned = False
+            saved = entry.remember(replace(saved, file=replace(state, holder=entry.take_lock(self.clock()))))
         reason = f", in place: {in_place}" if in_place else ""
         text = f"Saved: {written_path(path)}{reason}{_unread_note(saved)}"
         if theirs is not None:
             text = f"{text.removesuffix('.')}. The other version is in {whole_name(theirs)}."
         return Saved(saved, Notice(text))
 
-    def _relock(self, entry: _OpenDocument, document: AnyDocument) -> AnyDocument:
-        """Replace the lock after a save under another name."""
-        if entry.lock is not None:
-            release(entry.lock)
-        entry.warned = False
-        holder = self._lock(entry)
-        return self._remember(entry, replace(document, file=replace(document.file, holder=holder)))
-
     # ---- leave
 
     def close(self, document: Document) -> None:
         """Close a saved or abandoned document: remove its journal and its lock."""
         entry = self._open.pop(document.file.opening, None)
-        if entry is None:
-            return
-        if entry.journal is not None:
-            entry.journal.remove()
-        if entry.lock is not None:
-            release(entry.lock)
+        if entry is not None:
+            entry.drop_journal()
+            entry.release_lock()
 
     def stop(self) -> None:
         """End the service, wanted or not; unsaved work stays in the journals."""
         for entry in self._open.values():
-            if entry.journal is not None and entry.latest.unsaved:
-                self._last_try(entry, entry.journal)
-            elif entry.journal is not None:
-                entry.journal.remove()
-            if entry.lock is not None:
-                release(entry.lock)
+            if entry.latest.unsaved:
+                entry.leave_journal(self.clock())
+            else:
+                entry.drop_journal()
+            entry.release_lock()
         self._open.clear()
-
-    def _last_try(self, entry: _OpenDocument, journal: JournalFile) -> None:
-        """Try once more to write what failed before; the disk may have room by now."""
-        try:
-            if entry.rewrite or journal.lost():
-                self._begin_journal(entry, entry.latest)
-            elif journal.unwritten:
-                journal.add(())
-        except OSError:
-            self._begin_elsewhere(entry, entry.latest)
-        if entry.journal is not None:
-            entry.journal.close()
 
 
 def free_copy_name(path: Path, whose: str, today: str) -> Path:

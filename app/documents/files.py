@@ -28,7 +28,7 @@ from core.program.model import Program
 MAX_PROGRAM_BYTES: Final = 4_000_000
 """The size of the largest program file in bytes: about twenty thousand segments."""
 SEARCHED_BYTES: Final = 4096
-"""The number of bytes at the start of a file in which a program's `format` key must appear."""
+"""The number of bytes at the start of a file in which a program's key `format`, or its number, must appear."""
 _PROGRAM: Final = re.compile(
     rb"(?:\xef\xbb\xbf)?(?:[ \t\r]*(?:#[^\n]*|[\w.-]+[ \t]*=[^\n]*)?\n)*?[ \t]*format[ \t]*=",
 )
@@ -87,11 +87,14 @@ def read_file(path: Path, most: int) -> tuple[bytes, os.stat_result]:
         return _read_all(file, most), status
 
 
-def read_start(path: Path, most: int) -> bytes:
-    """Return the first `most` bytes of a file; raise OSError if it is not a regular file."""
-    _check_regular(path, path.stat())
-    with path.open("rb") as file:
-        return file.read(most)
+def read_start(path: Path, most: int = SEARCHED_BYTES) -> bytes | None:
+    """Return the first `most` bytes of a file; None if it is not a regular file or cannot be read."""
+    try:
+        _check_regular(path, path.stat())
+        with path.open("rb") as file:
+            return file.read(most)
+    except (OSError, ValueError):
+        return None
 
 
 def _check_regular(path: Path, status: os.stat_result) -> None:
@@ -201,17 +204,8 @@ def write_output(path: Path, text: str) -> None:
 
 def refuse_program(path: Path) -> None:
     """Raise StoreError if the path is that of a program, which output must not replace."""
-    if _is_program(path):
+    if path.suffix.lower() == ".toml" or holds_program(read_start(path) or b""):
         raise StoreError(f"{path} is a program and would be overwritten. Choose another name.")
-
-
-def _is_program(path: Path) -> bool:
-    if path.suffix.lower() == ".toml":
-        return True
-    try:
-        return holds_program(read_start(path, SEARCHED_BYTES))
-    except (OSError, ValueError):
-        return False
 
 
 def temporary_path(target: Path) -> Path:

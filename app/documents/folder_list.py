@@ -223,7 +223,4 @@ def _kind(name: str) -> str:
 
 def _is_sheet(path: Path) -> bool:
     """True if a file is a program's setup sheet."""
-    try:
-        return path.suffix.lower() == ".txt" and read_start(path, len(SHEET_START)) == SHEET_START
-    except OSError:
-        return False
+    return path.suffix.lower() == ".txt" and read_start(path, len(SHEET_START)) == SHEET_START

@@ -19,8 +19,6 @@ PROGRAM_FILE_NAMES: Final = (
 """The names that the file of program number {0} may have; the folder stands for the control's memory."""
 
 MAX_SEARCHED_FILES: Final = 500
-SEARCHED_BYTES: Final = 4096
-"""The number of bytes at the start of a file in which its program number is searched for."""
 _NUMBER: Final = re.compile(rb"^[ \t]*[O:][ \t]*([0-9]{1,8})(?![0-9.])", re.MULTILINE | re.IGNORECASE)
 
 
@@ -65,13 +63,6 @@ class FolderLibrary:
         with suppress(OSError):
             files = sorted(path for path in self.folder.iterdir() if path.suffix.lower() in NC_SUFFIXES)
             for path in files[:MAX_SEARCHED_FILES]:
-                if (first := _NUMBER.search(_start(path))) and int(first[1]) == number:
+                if (first := _NUMBER.search(read_start(path) or b"")) and int(first[1]) == number:
                     return path
         return None
-
-
-def _start(path: Path) -> bytes:
-    try:
-        return read_start(path, SEARCHED_BYTES)
-    except OSError:
-        return b""

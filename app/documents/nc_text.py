@@ -34,6 +34,10 @@ class Change:
     inserted: tuple[str, ...]
 
 
+NEVER_SAVED: Final = Change(-1, (), ())
+"""The `saved` change of a text none of whose states any file holds."""
+
+
 @dataclass(frozen=True, eq=False, slots=True)
 class NcText:
     """An NC text: `lines` with line ends; `origin` is the file's content, `saved` the last change that it includes."""
@@ -99,7 +103,8 @@ class NcText:
             old = row if row < min(len(texts), before) - after else row + before - len(texts)
             lines.append(text + (self._end_of(old) if 0 <= old < len(self.lines) else ""))
             if not _END.search(lines[-1]):
-                lines[-1] += self._usual_end()
+                # the usual line end of this file: that of its first line
+                lines[-1] += (self._end_of(0) if self.lines else "") or "\n"
         lines += [text for text in texts[-1:] if text]
         if self.lines and self.lines[0].startswith(BYTE_ORDER_MARK):
             lines[:1] = [BYTE_ORDER_MARK + "".join(lines[:1])]
@@ -109,10 +114,6 @@ class NcText:
     def _end_of(self, row: int) -> str:
         match = _END.search(self.lines[row])
         return match[0] if match else ""
-
-    def _usual_end(self) -> str:
-        """Return the usual line end of this file: that of its first line."""
-        return (self._end_of(0) if self.lines else "") or "\n"
 
     def _with_change(self, change: Change) -> NcText:
         return replace(_with_lines(self, change), past=(*self.past, change), future=())
@@ -147,6 +148,16 @@ class NcText:
         if lines != change.removed or not 0 <= change.row <= len(self):
             raise ValueError("another text")
         return self._with_change(change)
+
+    def known_in(self, file: NcText) -> NcText:
+        """Return the text, marked with the change after which it equals the file: nothing is unsaved at that one."""
+        lines, wanted = list(self.first.lines), list(file.lines)
+        for change in (None, *self.past, *reversed(self.future)):
+            if change is not None:
+                lines[change.row : change.row + len(change.removed)] = change.inserted
+            if lines == wanted and self.encoding == file.encoding:
+                return replace(self, saved=change)
+        return self
 
     def written(self, data: bytes) -> NcText:
         """Return the text after the file was written with this content."""

@@ -5,7 +5,7 @@ from __future__ import annotations
 from dataclasses import replace
 from pathlib import Path
 
-from app.documents.files import SEARCHED_BYTES, holds_program, read_start
+from app.documents.files import holds_program, read_start
 from core.program.edit import new_block
 from core.program.model import Number, Program, Tool
 from core.units import Unit
@@ -29,10 +29,8 @@ def empty_program(unit: Unit = Unit.IN) -> Program:
 
 def is_program(path: Path) -> bool:
     """True if a file may be a contour program; an unreadable file may be one."""
-    try:
-        return holds_program(read_start(path, SEARCHED_BYTES))
-    except OSError:
-        return True
+    start = read_start(path)
+    return start is None or holds_program(start)
 
 
 def is_nc(path: Path) -> bool:

@@ -201,22 +201,17 @@ def unreadable(path: Path) -> UnreadableWork | None:
     hidden, what, owner = False, "", None
     try:
         status = path.stat()
-        if stat.S_ISREG(status.st_mode) and not status.st_size:
-            return None
-        data, _ = read_file(path, MAX_JOURNAL_BYTES)
-        owner = owner_in_another_version(data)
+    except OSError:
+        return None
+    if stat.S_ISREG(status.st_mode) and not status.st_size:
+        return None
+    try:
+        owner = owner_in_another_version(read_file(path, MAX_JOURNAL_BYTES)[0])
     except FileNotFoundError:
         return None
-    except NotAFileError as error:
-        what = error.what
-    except PermissionError:
-        hidden = True
-    except OSError:
-        hidden = False
-    try:
-        status = path.stat()
-    except OSError:
-        return None
+    except OSError as error:
+        hidden = isinstance(error, PermissionError)
+        what = error.what if isinstance(error, NotAFileError) else ""
     user, time = login(status.st_uid), times.of_file(status.st_mtime_ns)
     return UnreadableWork(user, time, hidden, status.st_uid == os.getuid(), what, owner)
 

@@ -154,11 +154,13 @@ class BaseScreen(Screen[None]):
 
     def action_panel(self, name: str) -> None:
         """Go to the list of segments or of findings on MILL CONTOUR."""
-        self.host.show_panel(name)
+        if (form := self.host.form_in_front()) is not None:
+            form.open_panel(name)
 
     def action_finding(self, by: int) -> None:
         """Show the next or previous finding on MILL CONTOUR."""
-        self.host.show_finding(by)
+        if (form := self.host.form_in_front()) is not None:
+            form.step_finding(by, form.in_hand)
 
     def help_lines(self) -> tuple[str, ...]:
         """Return sentences about this screen, for HELP."""

@@ -22,13 +22,16 @@ from app.screens.contour_cells import (
     cells_at,
     fields_at,
     form_at,
+    next_stop,
     run_here,
     run_label,
+    run_lacks,
+    run_stops,
     run_trouble,
+    unanswered,
     value_at,
 )
 from app.screens.dialogs import ChooseLine
-from app.screens.enter_stops import next_stop, run_lacks, run_stops, unanswered
 from app.screens.form_screen import FormScreen
 from app.session.block_findings import TO_TYPE, WAITING_CODES, Entry, block_findings, remedy
 from app.session.guide import on_form

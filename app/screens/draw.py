@@ -171,13 +171,6 @@ class DrawScreen(BaseScreen):
     def _chosen(self, event: OptionList.OptionSelected) -> None:
         self.host.go_to(self.entries[event.option_index])
 
-    def action_edit_finding(self) -> None:
-        """Go to the field of the selected finding on the form; if none is selected, go back."""
-        if self.at is not None:
-            self.host.go_to(self.entries[self.at])
-        else:
-            self.call_later(self.run_action, "app.back")
-
     def action_zoom(self, steps: int) -> None:
         """Zoom in or out about the cross, or about the center of the window without one."""
         self.drawing.action_zoom(steps)
@@ -255,13 +248,15 @@ class DrawScreen(BaseScreen):
             self._take_cross(run, *typed)
 
     def action_enter(self) -> None:
-        """Take the pick at the cross; without a cross, go to the form as for `action_edit_finding`."""
+        """Take the pick at the cross; without a cross, go to the field of the selected finding, or back."""
         run, unit = self.run, self.current_session.program.unit
-        if self.cross is None or run is None:
-            self.action_edit_finding()
-            return
-        x, y = (float(length(each, unit)) for each in self.cross)
-        self._take_cross(run, x, y)
+        if self.cross is not None and run is not None:
+            x, y = (float(length(each, unit)) for each in self.cross)
+            self._take_cross(run, x, y)
+        elif self.at is not None:
+            self.host.go_to(self.entries[self.at])
+        else:
+            self.call_later(self.run_action, "app.back")
 
     def _take_cross(self, run: SolvedRun, x: float, y: float) -> None:
         """Write the pick, in program units, into the program and report the result."""

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from abc import abstractmethod
 from typing import ClassVar, Final
 
 from textual import on, work
@@ -55,7 +54,7 @@ class SettingsForm(FormScreen):
         with Vertical(id="settings", classes="panel -bare"):
             with Horizontal(classes="head"):
                 yield PlainLabel(self.NAME, classes="head-title")
-            yield Form(self._cells(self.host.session), id="settings-form", classes="fields")
+            yield Form(self._cells(self.current_session.program.unit), id="settings-form", classes="fields")
 
     def on_mount(self) -> None:
         """Put the cursor on the first field."""
@@ -65,26 +64,17 @@ class SettingsForm(FormScreen):
         """Return the fields."""
         return self.FIELDS
 
-    def _cells(self, session: Session) -> tuple[Cell, ...]:
-        return tuple(self._cell(field, number // ROWS, session) for number, field in enumerate(self.FIELDS))
+    def _cells(self, unit: Unit) -> tuple[Cell, ...]:
+        return tuple(self._cell(field, number // ROWS, unit) for number, field in enumerate(self.FIELDS))
 
-    def _cell(self, field: Field, column: int, session: Session) -> Cell:
-        held, unit = self.program_value(session, field.name), session.program.unit
-        usual = default_value(field.name, unit)
+    def _cell(self, field: Field, column: int, unit: Unit) -> Cell:
+        held, usual = self.value(field.name), default_value(field.name, unit)
         value = Solved(usual, Origin.USUAL) if held is None and usual is not None else held
         return cell_of(field, value, unit, column)
 
-    @abstractmethod
-    def program_value(self, session: Session, name: str) -> Value | str:
-        """Return what the program holds in a field."""
-
-    def value(self, name: str) -> Value | str:
-        """Return what the program holds in a field."""
-        return self.program_value(self.current_session, name)
-
     def show_session(self, session: Session) -> None:
         """Show the current values."""
-        self.form().show(self._cells(session))
+        self.form().show(self._cells(session.program.unit))
 
     def prompt_text(self) -> Sentence:
         """Return the prompt, with the default value of a blank field."""
@@ -102,11 +92,11 @@ class ParametersScreen(SettingsForm):
     NAME: ClassVar[str] = "PROGRAM PARAMETERS"
     FIELDS: ClassVar[tuple[Field, ...]] = (UNITS, *PARAMETERS)
 
-    def program_value(self, session: Session, name: str) -> Value | str:
+    def value(self, name: str) -> Value | str:
         """Return the unit, the path, or a number."""
         if name == "unit":
-            return str(session.program.unit)
-        value: Value = getattr(session.program.parameters, name)
+            return str(self.current_session.program.unit)
+        value: Value = getattr(self.current_session.program.parameters, name)
         return str(value) if name == "path" else value
 
     def edited(self, field: Field, text: str) -> Edited:
@@ -183,9 +173,9 @@ class PartSetupScreen(SettingsForm):
     NAME: ClassVar[str] = "PART SETUP"
     FIELDS: ClassVar[tuple[Field, ...]] = SETUP
 
-    def program_value(self, session: Session, name: str) -> Value | str:
+    def value(self, name: str) -> Value | str:
         """Return a text or a number."""
-        value: Value | str = getattr(session.program.setup, name)
+        value: Value | str = getattr(self.current_session.program.setup, name)
         return value
 
     def edited(self, field: Field, text: str) -> Edited:

@@ -229,10 +229,12 @@ class ToolsScreen(FormScreen):
         self._show_use()
 
     def _show_use(self) -> None:
-        tool, program = self.tool, self.current_session.program
-        others = (other for other in program.tools if other is not tool)
-        faults = [fault for each in (tool, *others) if each is not None for fault in _faults(each, program.unit)]
-        text = "" if tool is None else "\n".join((_use_text(program, tool.number), *faults))
+        tool, program, lines = self.tool, self.current_session.program, list[str]()
+        if tool is not None:
+            tools = (tool, *(other for other in program.tools if other is not tool))
+            lines = [f"TOOL {tool.number}", *(_uses(program, tool.number) or ["Not used by any block."])]
+            lines += [fault for each in tools for fault in _faults(each, program.unit)]
+        text = "\n".join(lines)
         panel = self.query_one("#tool-use", Static)
         if str(panel.content) != text:
             panel.update(text, layout=False)
@@ -257,7 +259,8 @@ class ToolsScreen(FormScreen):
     def action_add_tool(self) -> None:
         """Add a tool with the lowest free number and put the cursor on its diameter."""
         program = self.current_session.program
-        tool = _next_tool(program)
+        taken = {tool.number for tool in program.tools}
+        tool = Tool(next(number for number in range(1, len(taken) + 2) if number not in taken))
         if self.host.apply(set_tool(program, tool), f"ADD TOOL {tool.number}"):
             row = [each.number for each in self.current_session.program.tools].index(tool.number)
             self.call_next(self._focus_row, row, "diameter")
@@ -283,15 +286,16 @@ def _row(name: str) -> int:
 
 
 def _cells(tool: Tool, row: int, session: Session) -> tuple[Cell, ...]:
+    """Return the cells of a tool; each is unread or typed, as nothing is calculated here."""
     cells = (cell_of(field, _value(tool, field.name), session.program.unit, 0) for field in TOOL)
     return tuple(
-        replace(cell, name=f"{cell.name}{NAME_SEPARATOR}{row}", state=_tool_state(cell.state)) for cell in cells
+        replace(
+            cell,
+            name=f"{cell.name}{NAME_SEPARATOR}{row}",
+            state=State.UNREAD if cell.state is State.UNREAD else State.TYPED,
+        )
+        for cell in cells
     )
-
-
-def _tool_state(state: State) -> State:
-    """Return the state of a tool's field: unread or typed, as nothing is calculated here."""
-    return state if state is State.UNREAD else State.TYPED
 
 
 def _value(tool: Tool, name: str) -> Value | str:
@@ -327,21 +331,11 @@ def _renumbered(program: Program, tool: Tool, typed: Typed) -> Edited:
     return outcome if isinstance(outcome, Refused) else delete_tool(outcome, tool.number)
 
 
-def _next_tool(program: Program) -> Tool:
-    taken = {tool.number for tool in program.tools}
-    return Tool(next(number for number in range(1, len(taken) + 2) if number not in taken))
-
-
 def _faults(tool: Tool, unit: Unit) -> list[str]:
     """Return an ERR line for each field of a tool that cannot be used."""
     reasons = [(field.label, unusable(_value(tool, field.name), field, unit)) for field in TOOL]
     texts = [text if text.startswith(label) else f"{label}: {text}" for label, text in reasons if text]
     return [f"ERR tool {tool.number} {text}" for text in texts]
-
-
-def _use_text(program: Program, number: int) -> str:
-    """Return which blocks call a tool, as lines of text."""
-    return "\n".join((f"TOOL {number}", *(_uses(program, number) or ["Not used by any block."])))
 
 
 def _uses(program: Program, number: int) -> list[str]:

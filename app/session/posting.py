@@ -93,20 +93,17 @@ def refusals(derived: Derived, refusal: Refusal) -> tuple[tuple[str, ...], tuple
 def objections(derived: Derived) -> Iterator[str]:
     """Yield a line on uncut stock and a line on segments the look-ahead deletes, each with its blocks."""
     unit = derived.program.unit
-    left = [f"block {number} {length(uncut, unit)} long" for number, uncut in _uncut_lengths(derived)]
+    verdicts = [(block.number, block.paths.verdict) for block in derived.blocks if block.paths is not None]
+    left = [
+        f"block {number} {length(verdict.uncut_length, unit)} long"
+        for number, verdict in verdicts
+        if verdict is not None and verdict.uncut
+    ]
     deleted = [(block.number, numbers) for block in derived.blocks if (numbers := deleted_segments(block))]
     if left:
         yield f"UNCUT {', '.join(left)}"
     if deleted:
         yield f"DELETED {', '.join(f'block {number} segments {numbers}' for number, numbers in deleted)}"
-
-
-def _uncut_lengths(derived: Derived) -> Iterator[tuple[int, float]]:
-    """Yield the number and the uncut length (mm) of each block that leaves something uncut."""
-    for block in derived.blocks:
-        verdict = None if block.paths is None else block.paths.verdict
-        if verdict is not None and verdict.uncut:
-            yield block.number, verdict.uncut_length
 
 
 def deleted_segments(block: DerivedBlock) -> str:

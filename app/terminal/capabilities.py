@@ -1,12 +1,35 @@
-"""This module finds a terminal's abilities by its name: colors, by the system's table, and non-ASCII characters."""
+"""This module finds what the terminal can show: its character set by the locale, its colors by its name.
+
+A program cannot ask a terminal what it takes.  Python turns the C locale into UTF-8 and writes that into its own
+environment as LC_CTYPE, so the operator's own locale is read here.  If that does not name UTF-8, characters outside
+its set are replaced by ASCII.
+"""
 
 from __future__ import annotations
 
+import codecs
+import os
 import re
 import sys
+import unicodedata
 from collections.abc import Callable, Mapping
-from typing import Final
+from pathlib import Path
+from typing import Final, TextIO
 
+UTF_8: Final = "utf-8"
+ASCII: Final = "ascii"
+LATIN_1: Final = "iso8859-1"
+"""The character set of a locale without one in its name, such as de_DE."""
+LOCALE_VARIABLES: Final = ("LC_ALL", "LC_CTYPE", "LANG")
+"""The first of these that is not empty names the locale."""
+COERCED_LOCALES: Final = ("C.UTF-8", "C.utf8", "UTF-8")
+"""What Python may set LC_CTYPE to if it is C or a locale that is not installed (PEP 538)."""
+START_ENVIRONMENT: Final = Path("/proc/self/environ")
+"""The environment with which the program was started, on Linux."""
+LOOKALIKES: Final = str.maketrans("│┃─━├┤▀▄█…→↗↑↖←↙↓↘▲▼▶◀✓✖×•·", '||--||"_#~>>^<<<v>^v><+!x..')
+LOOKALIKE_ERRORS: Final = "cutcomp.lookalike"
+FIRST_FRAME, LAST_FRAME, LAST_BLOCK = "\u2500", "\u257f", "\u259f"
+FIRST_BRAILLE, LAST_BRAILLE = "\u2801", "\u28ff"
 COLORED: Final = re.compile(
     r"(?:xterm|screen|tmux|linux|putty|rxvt|vte|konsole|gnome|alacritty|foot|kitty)\b|.*colou?r"
 )
@@ -15,6 +38,90 @@ BARE: Final = re.compile(r"vt[1-5]\d\d\b.*|.*-(?:m|mono)\b.*")
 """Names of terminals without colors, for use if the table does not know them."""
 OLD: Final = re.compile(r"vt[1-5]\d\d\b")
 """Names of terminals older than UTF-8, and of programs that emulate only those."""
+
+
+# ---- characters
+
+
+def started_with() -> Mapping[str, str] | None:
+    """Return the environment before Python changed it; None if the system does not show it."""
+    try:
+        data = START_ENVIRONMENT.read_bytes()
+    except OSError:
+        return None
+    pairs = (os.fsdecode(entry).partition("=") for entry in data.split(b"\0") if entry)
+    return {name: value for name, _, value in pairs}
+
+
+def operators_environment(
+    environment: Mapping[str, str], started: Callable[[], Mapping[str, str] | None] = started_with
+) -> Mapping[str, str]:
+    """Return the environment with the operator's own LC_CTYPE, not the one that Python may have set.
+
+    If the system does not show it, `C.UTF-8` and `C.utf8` count as Python's, unless PYTHONCOERCECLOCALE is 0.
+    """
+    if environment.get("LC_ALL") or environment.get("LC_CTYPE") not in COERCED_LOCALES:
+        return environment
+    if (before := started()) is not None:
+        return {**environment, "LC_CTYPE": before.get("LC_CTYPE", "")}
+    chosen = environment["LC_CTYPE"] == COERCED_LOCALES[-1] or environment.get("PYTHONCOERCECLOCALE") == "0"
+    return environment if chosen else {**environment, "LC_CTYPE": ""}
+
+
+def charset(environment: Mapping[str, str]) -> str:
+    """Return the name, as Python knows it, of the character set that the terminal takes."""
+    name = next((environment[variable] for variable in LOCALE_VARIABLES if environment.get(variable)), "C")
+    if name in ("C", "POSIX"):
+        return ASCII
+    locale = name.partition("@")[0]
+    _, dot, given = locale.rpartition(".")
+    # a name without a dot is a language or, on some systems, the character set alone
+    wanted = given if dot or _known(given) else LATIN_1
+    return _known(wanted) or ASCII
+
+
+def _known(name: str) -> str:
+    try:
+        return codecs.lookup(name).name
+    except LookupError:
+        return ""
+
+
+def lookalike(text: str) -> str:
+    """Return the text with each non-ASCII character replaced by one ASCII character."""
+    return "".join(character if character.isascii() else _letter(character) for character in text.translate(LOOKALIKES))
+
+
+def _letter(character: str) -> str:
+    if FIRST_BRAILLE <= character <= LAST_BRAILLE:
+        return "*"
+    if FIRST_FRAME <= character <= LAST_FRAME:
+        return "+"
+    if LAST_FRAME < character <= LAST_BLOCK:
+        return "#"
+    bare = unicodedata.normalize("NFKD", character)[0]
+    return bare if bare.isascii() and bare.isprintable() else "?"
+
+
+def _stand_in(error: UnicodeError) -> tuple[str, int]:
+    if not isinstance(error, UnicodeEncodeError):
+        raise error
+    return lookalike(error.object[error.start : error.end]), error.end
+
+
+def set_charset(stream: TextIO | None, name: str) -> None:
+    """Make a stream write this character set; others become one ASCII character each instead of an error."""
+    codecs.register_error(LOOKALIKE_ERRORS, _stand_in)
+    if stream is not None and hasattr(stream, "reconfigure"):
+        stream.reconfigure(encoding=name, errors=LOOKALIKE_ERRORS)
+
+
+def ascii_only(environment: Mapping[str, str]) -> bool:
+    """True if a terminal cannot show UTF-8, whatever the locale says."""
+    return OLD.match(environment.get("TERM", "")) is not None
+
+
+# ---- colors
 
 
 def colors(name: str) -> int | None:
@@ -42,8 +149,3 @@ def monochrome(environment: Mapping[str, str], table: Callable[[str], int | None
         return False
     known = table(name)
     return bare if known is None else known < 2
-
-
-def ascii_only(environment: Mapping[str, str]) -> bool:
-    """True if a terminal cannot show UTF-8, whatever the locale says."""
-    return OLD.match(environment.get("TERM", "")) is not None

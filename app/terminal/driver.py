@@ -21,9 +21,8 @@ from textual._xterm_parser import XTermParser
 from textual.drivers.linux_driver import LinuxDriver
 from textual.message import Message
 
-from app.terminal.capabilities import ascii_only
+from app.terminal.capabilities import ASCII, UTF_8, ascii_only, charset
 from app.terminal.cell_diff import TerminalCells
-from app.terminal.character_set import ASCII, UTF_8, charset
 from app.terminal.key_order import KeyOrder
 from app.terminal.split_keys import KEY_WARNINGS, Joined, delay
 

@@ -7,7 +7,7 @@ from itertools import product
 
 import pytest
 
-from app.terminal.character_set import charset, lookalike, set_charset
+from app.terminal.capabilities import charset, lookalike, set_charset
 from app.terminal.driver import characters
 from core.draw.characters import CELLS_OF_MODE, Mode
 

@@ -6,7 +6,7 @@ import re
 
 import pytest
 
-from app.terminal.character_set import charset, operators_environment
+from app.terminal.capabilities import charset, operators_environment
 from tests.reports.matrix import stray
 from tests.terminal import cutcomp, running
 

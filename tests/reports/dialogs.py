@@ -23,7 +23,7 @@ from typing import Final
 from app.documents.journal_file import journal_path
 from app.documents.lock import myself, take
 from app.documents.programs import example
-from app.terminal.character_set import lookalike
+from app.terminal.capabilities import lookalike
 from tests.app.documents.typist import DEAD, ELSEWHERE, started
 from tests.reports.matrix import ROOT, colors_wrong, stray
 from tests.reports.recorded import PLAIN, keys_of, masked

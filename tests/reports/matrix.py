@@ -22,7 +22,7 @@ from pathlib import Path
 from tempfile import TemporaryDirectory
 from typing import Any, Final
 
-from app.terminal.character_set import LOOKALIKE_ERRORS, set_charset
+from app.terminal.capabilities import LOOKALIKE_ERRORS, set_charset
 from tests.reports.recorded import Picture, Step, difference, keys_of, masked, recorded
 from tests.reports.terminals import (
     FUNCTION_KEYS,

@@ -6,7 +6,7 @@ from dataclasses import replace
 
 import pytest
 
-from app.terminal.character_set import lookalike
+from app.terminal.capabilities import lookalike
 from tests.reports import dialogs
 from tests.reports.dialogs import DIALOGS, SIZES, box, columns_of, inside, named, on_an_xterm, one_kind, reached
 from tests.reports.recorded import PLAIN

@@ -8,7 +8,7 @@ from dataclasses import replace
 import pytest
 from hypothesis import given, settings
 
-from app.documents.contour_journal import applied, delta
+from app.documents.journal import applied, delta
 from app.documents.journal_file import DamagedError
 from core.program.edit import FormPlace, delete_segment, insert_segment, type_field
 from core.program.file.read import StoreError

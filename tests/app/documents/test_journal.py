@@ -12,7 +12,6 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from app.documents.contour_journal import delta
 from app.documents.files import Stamp
 from app.documents.journal import (
     MAX_UNDO_EDITS,
@@ -21,6 +20,7 @@ from app.documents.journal import (
     Kind,
     beginning,
     continuing,
+    delta,
     read_journal,
     records_between,
 )
