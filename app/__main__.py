@@ -14,6 +14,13 @@ from app.cli import lifeline
 from app.cli.shell import COMMAND_HELP, NOTHING_ASKED, SHOP_HELP, STATUS_UNUSABLE, TerminalOptions, prepare, say
 from app.documents.paths import is_drawing
 
+DESCRIPTION = """\
+Type a MILL CONTOUR from the drawing, see what the cutter will do, write the NC file.
+
+  cutcomp [FILE]             the screens, on FILE or on the start screen
+  cutcomp --example [NAME]   the screens, on an example part
+"""
+
 
 def main(arguments: list[str] | None = None) -> int:
     """Run the program with these arguments, or with the command line's; return the exit status."""
@@ -26,7 +33,7 @@ def main(arguments: list[str] | None = None) -> int:
 
         return check(given[1:])
     if word == "proof":
-        from app.cli.proof import proof
+        from app.cli.screens import proof
 
         return proof(given[1:])
     if word == "import":
@@ -46,9 +53,40 @@ def main(arguments: list[str] | None = None) -> int:
 
 
 def _parsed(given: list[str]) -> int:
-    from app.cli.arguments import screen_parser
+    import argparse
 
-    options = screen_parser().parse_args(given)
+    from app.documents.programs import examples
+
+    parser = argparse.ArgumentParser(
+        "cutcomp",
+        description=DESCRIPTION,
+        epilog="commands without a screen:\n"
+        + "".join(f"  cutcomp {name:<10} {text}\n" for name, text in (COMMAND_HELP | SHOP_HELP).items())
+        + "  cutcomp check      what controls do with an NC program\n"
+        + "  cutcomp import     contours of a DXF drawing as a program\n\nanother screen:\n"
+        + "  cutcomp proof      an NC program, the path a control makes of it, its findings\n\n"
+        + "`cutcomp COMMAND --help` tells more.",
+        formatter_class=argparse.RawDescriptionHelpFormatter,
+    )
+    parser.add_argument(
+        "file",
+        nargs="?",
+        type=Path,
+        metavar="FILE",
+        help="a program (TOML), an NC program to prove, a drawing (DXF), or a folder",
+    )
+    names = sorted(path.stem for path in examples().glob("*.toml"))
+    parser.add_argument("--example", nargs="?", const="pocket", choices=names, help="open an example part")
+    parser.add_argument(
+        "--characters",
+        choices=("braille", "block", "ascii"),
+        default="",
+        help="draw with these; by itself braille, half blocks on the Linux console, ASCII where LANG names no UTF-8",
+    )
+    parser.add_argument("--mouse", action="store_true", help="clicks act on fields, softkeys, lists and drawings")
+    parser.add_argument("--light", action="store_true", help="dark ink on light paper")
+    parser.add_argument("--version", action="store_true", help="print the version and end")
+    options = parser.parse_args(given)
     if options.version:
         from importlib.metadata import version
 

@@ -1,23 +1,21 @@
-"""This module holds commands without a screen."""
+"""This module holds the commands that read a program and write its path, its look-ahead table, NC text or picture."""
 
 from __future__ import annotations
 
+import argparse
 import json
 import sys
 from dataclasses import replace
 from pathlib import Path
 from typing import TYPE_CHECKING, Final
 
-from app.cli.arguments import command_parser
-from app.cli.shell import STATUS_CLEAN, STATUS_FINDINGS, Unusable, reported, say
+from app.cli.shell import COMMAND_HELP, STATUS_CLEAN, STATUS_FINDINGS, Unusable, reported, say
 from app.documents.files import load, load_from, write_output
 from core.comp.lookahead import MAX_LOOKAHEAD, MIN_LOOKAHEAD
 from core.program.model import Number, Program
 from core.units import segment_name, sentence
 
 if TYPE_CHECKING:
-    import argparse
-
     from core.advice.lookahead_table import Table
     from core.controls.write.written_program import Refusal
     from core.pipeline.derived import Derived, DerivedBlock
@@ -34,8 +32,29 @@ OTHER_PICTURES: Final = frozenset(
 @reported
 def command(arguments: list[str]) -> int:
     """Run one of these commands; return the exit status."""
-    options = command_parser(arguments[0]).parse_args(arguments[1:])
+    options = _parser(arguments[0]).parse_args(arguments[1:])
     return {"path": path, "lookahead": lookahead, "post": post, "plot": plot}[arguments[0]](options)
+
+
+def _parser(name: str) -> argparse.ArgumentParser:
+    parser = argparse.ArgumentParser(f"cutcomp {name}", description=COMMAND_HELP[name])
+    parser.add_argument("file", type=Path, metavar="FILE", help="a program file (TOML), - for standard input")
+    if name in ("path", "lookahead"):
+        parser.add_argument("--block", type=int, metavar="N", help="this block only")
+        parser.add_argument("--json", action="store_true", help="machine-readable")
+    if name == "path":
+        parser.add_argument("--lookahead", metavar="N|cal", help="use this look-ahead instead of the program's")
+    if name in ("post", "plot"):
+        what = "an .svg or .dxf file to write" if name == "plot" else "write here"
+        parser.add_argument("-o", "--output", type=Path, metavar="OUT", help=f"{what} instead of standard output")
+    if name == "post":
+        parser.add_argument(
+            "--override", metavar="SENTENCE", help="post although there is a gouge; the refusal names the words"
+        )
+        parser.add_argument(
+            "--control", metavar="NAME[:VARIANT]", help="as that control's own G41, G42, RL or RR program"
+        )
+    return parser
 
 
 def _derived(path: Path, block: int | None = None, lookahead: str | None = None) -> Derived:

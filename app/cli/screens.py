@@ -1,4 +1,7 @@
-"""This module starts the screens: it opens the document, prepares Textual for the terminal and runs the App."""
+"""This module starts the screens: it opens the document, prepares Textual for the terminal and runs the App.
+
+`cutcomp proof` opens the screen NC PROOF on a file.
+"""
 
 from __future__ import annotations
 
@@ -9,12 +12,12 @@ from dataclasses import replace
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from app.cli.shell import NOTHING_ASKED, STATUS_UNUSABLE, TerminalOptions, say
+from app.cli.shell import NOTHING_ASKED, STATUS_UNUSABLE, TerminalOptions, Unusable, prepare, reported, say
 from app.documents.document import ContourDocument
 from app.documents.document_service import DocumentService, Notice, Opened, Trouble
 from app.documents.nc_text import NC_SUFFIXES
 from app.documents.paths import is_drawing, is_folder, program_named
-from app.documents.programs import empty_program
+from app.documents.programs import empty_program, is_nc
 from app.documents.settings import SettingsFile, load_settings, settings_file
 from app.documents.time_limits import EXIT_SECONDS
 from core.program.file.read import StoreError
@@ -64,6 +67,29 @@ def run(
     app = make_app(service, opened, options, check_request, home=home)
     app.drawing = drawing
     return guarded(service, app, mouse=options.mouse or app.settings.mouse)
+
+
+@reported
+def proof(arguments: list[str]) -> int:
+    """Run the command; return the exit status."""
+    import argparse
+
+    from app.cli.control_options import add_options, control_of, tools_of, unit_of
+    from core.pipeline.checking import CheckRequest
+
+    parser = argparse.ArgumentParser(
+        "cutcomp proof", description="The listing of an NC program, the path a control makes of it, and its findings."
+    )
+    parser.add_argument("file", type=Path, metavar="FILE", help="an NC program")
+    parser.add_argument("--control", metavar="NAME[:VARIANT]", help="the control; the screen changes it by key")
+    add_options(parser)
+    options = parser.parse_args(arguments)
+    control = "" if options.control is None else control_of(options.control)
+    request = CheckRequest(control, tools_of(options), shop=False, unit=unit_of(options))
+    if options.file.is_file() and not is_nc(options.file):
+        raise Unusable(f"{options.file} is a program, not an NC file: cutcomp {options.file} opens it.")
+    prepare()
+    return run(options.file, check_request=request)
 
 
 def in_browser() -> bool:
