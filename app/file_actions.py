@@ -227,7 +227,10 @@ class FileActions(DerivationActions):
 
         def opened() -> Opened[Any] | Trouble | Path:
             if not kept_copy:
-                where = _file_of_name(resolved_name(path, here))
+                where = resolved_name(path, here)
+                if where.suffix.lower() not in NC_SUFFIXES and not is_drawing(where):
+                    # any other name means a cutcomp program
+                    where = program_named(where)
                 return where if is_folder(where) or is_drawing(where) else service.open(where)
             file = file_of_copy(path, path.parent)
             return service.copy_without_name(path) if file is None else service.open(file, kept_copy=path)
@@ -490,11 +493,6 @@ class FileActions(DerivationActions):
         if await self.may_close("QUIT?", self._all_open()):
             await self.close_documents(self._all_open())
             self.exit(0)
-
-
-def _file_of_name(path: Path) -> Path:
-    """Return the file a typed name means: an NC program or drawing by its suffix, else a cutcomp program."""
-    return path if path.suffix.lower() in NC_SUFFIXES or is_drawing(path) else program_named(path)
 
 
 def session_of(document: ContourDocument, before: Session | None = None) -> Session:

@@ -15,7 +15,6 @@ from contextlib import suppress
 from dataclasses import dataclass
 from pathlib import Path
 from time import time
-from types import MappingProxyType
 from typing import BinaryIO, Final
 from zlib import adler32, crc32
 
@@ -360,27 +359,25 @@ def sync_folder(folder: Path) -> None:
             os.close(handle)
 
 
-_REASONS: Final[Mapping[int, str]] = MappingProxyType(
-    {
-        errno.ENOSPC: "the disk is full. Make room or save elsewhere.",
-        errno.EDQUOT: "the disk is full. Make room or save elsewhere.",
-        errno.EISDIR: "this is not a file. Choose the name of a file.",
-        errno.ENOTDIR: "a part of the path is no folder. Check the name.",
-        errno.ENOENT: "there is no such file or folder. Check the name.",
-        errno.EROFS: "the disk is write protected. Choose another place.",
-        errno.EFBIG: "the system lets nobody write a file of this size. Ask for a higher limit, or save elsewhere.",
-        errno.ENAMETOOLONG: "the name is too long. Choose a shorter one.",
-        errno.ELOOP: "its links lead round in a circle. Choose another file.",
-        errno.ENXIO: "this is not a file. Choose the name of a file.",
-        errno.EIO: "the disk or the network fails. Try again or choose another place.",
-        errno.ESTALE: "the network folder is gone. Try again or choose another place.",
-        errno.ETIMEDOUT: "the network does not answer. Try again or choose another place.",
-        errno.EMFILE: "too many files are open. Close some and try again.",
-        errno.ENFILE: "too many files are open. Close some and try again.",
-        errno.ETXTBSY: "it is being run. Choose another name.",
-        errno.EBUSY: "it is in use. Try again or choose another name.",
-    }
-)
+_REASONS: Final[Mapping[int, str]] = {
+    errno.ENOSPC: "the disk is full. Make room or save elsewhere.",
+    errno.EDQUOT: "the disk is full. Make room or save elsewhere.",
+    errno.EISDIR: "this is not a file. Choose the name of a file.",
+    errno.ENOTDIR: "a part of the path is no folder. Check the name.",
+    errno.ENOENT: "there is no such file or folder. Check the name.",
+    errno.EROFS: "the disk is write protected. Choose another place.",
+    errno.EFBIG: "the system lets nobody write a file of this size. Ask for a higher limit, or save elsewhere.",
+    errno.ENAMETOOLONG: "the name is too long. Choose a shorter one.",
+    errno.ELOOP: "its links lead round in a circle. Choose another file.",
+    errno.ENXIO: "this is not a file. Choose the name of a file.",
+    errno.EIO: "the disk or the network fails. Try again or choose another place.",
+    errno.ESTALE: "the network folder is gone. Try again or choose another place.",
+    errno.ETIMEDOUT: "the network does not answer. Try again or choose another place.",
+    errno.EMFILE: "too many files are open. Close some and try again.",
+    errno.ENFILE: "too many files are open. Close some and try again.",
+    errno.ETXTBSY: "it is being run. Choose another name.",
+    errno.EBUSY: "it is in use. Try again or choose another name.",
+}
 
 
 def why(error: OSError | ValueError) -> str:

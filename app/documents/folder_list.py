@@ -36,7 +36,7 @@ MAX_LISTED: Final = 500
 DRAWING: Final = "drawing"
 NC_PROGRAM: Final = "NC program"
 SHEET_START: Final = b"SETUP SHEET\n"
-"""The first line of a setup sheet."""
+"""The first line of a setup sheet, which is no NC program."""
 
 
 class Outcome(StrEnum):
@@ -209,8 +209,9 @@ def _listed_files(folder: Path) -> Iterator[Listed]:
         yield Listed(path, path.name.removesuffix(".toml"))
     # drawings before NC programs
     for entry, kind in sorted(others, key=lambda other: other[1] != DRAWING)[:MAX_LISTED]:
-        if not _is_sheet(Path(entry.path)):
-            yield Listed(Path(entry.path), entry.name, kind=kind)
+        path = Path(entry.path)
+        if path.suffix.lower() != ".txt" or read_start(path, len(SHEET_START)) != SHEET_START:
+            yield Listed(path, entry.name, kind=kind)
     for entry in folders[:MAX_LISTED]:
         yield Listed(Path(entry.path), f"{entry.name}/", folder=True)
 
@@ -219,8 +220,3 @@ def _kind(name: str) -> str:
     """Return the kind of a drawing or an NC program by its file name, empty for any other file."""
     path = Path(name)
     return DRAWING if is_drawing(path) else NC_PROGRAM if path.suffix.lower() in NC_SUFFIXES else ""
-
-
-def _is_sheet(path: Path) -> bool:
-    """True if a file is a program's setup sheet."""
-    return path.suffix.lower() == ".txt" and read_start(path, len(SHEET_START)) == SHEET_START

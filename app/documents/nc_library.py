@@ -35,34 +35,24 @@ class FolderLibrary:
         """
         if self.folder is None:
             return None
-        path = self._labeled(program) if isinstance(program, str) else self._numbered(program)
-        if path is None:
-            return None
-        try:
-            text = read_file(path, MAX_NC_BYTES)[0]
-        except (OSError, ValueError):
-            return None
-        return plain(path.name), text
-
-    def _labeled(self, label: str) -> Path | None:
-        """Return the file named by a label; None if the label leads to another folder or there is no such file."""
-        assert self.folder is not None
-        path = self.folder / f"{label}.ngc"
         with suppress(OSError, ValueError):
-            return path if path.parent == self.folder and path.is_file() else None
+            path = _labeled(self.folder, program) if isinstance(program, str) else _numbered(self.folder, program)
+            if path is not None:
+                return plain(path.name), read_file(path, MAX_NC_BYTES)[0]
         return None
 
-    def _numbered(self, number: int) -> Path | None:
-        assert self.folder is not None
-        named = (self.folder / form.format(number) for form in PROGRAM_FILE_NAMES)
-        return next((path for path in named if path.is_file()), None) or self._beginning_with(number)
 
-    def _beginning_with(self, number: int) -> Path | None:
-        """Return the file whose first program has this number, whatever the file's name."""
-        assert self.folder is not None
-        with suppress(OSError):
-            files = sorted(path for path in self.folder.iterdir() if path.suffix.lower() in NC_SUFFIXES)
-            for path in files[:MAX_SEARCHED_FILES]:
-                if (first := _NUMBER.search(read_start(path) or b"")) and int(first[1]) == number:
-                    return path
-        return None
+def _labeled(folder: Path, label: str) -> Path | None:
+    """Return the file named by a label; None if the label leads to another folder or there is no such file."""
+    path = folder / f"{label}.ngc"
+    return path if path.parent == folder and path.is_file() else None
+
+
+def _numbered(folder: Path, number: int) -> Path | None:
+    """Return the file named by a number, else the one whose first program has it."""
+    named = (folder / form.format(number) for form in PROGRAM_FILE_NAMES)
+    if (path := next((path for path in named if path.is_file()), None)) is not None:
+        return path
+    files = sorted(path for path in folder.iterdir() if path.suffix.lower() in NC_SUFFIXES)
+    starts = ((path, _NUMBER.search(read_start(path) or b"")) for path in files[:MAX_SEARCHED_FILES])
+    return next((path for path, first in starts if first and int(first[1]) == number), None)

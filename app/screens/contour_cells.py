@@ -7,7 +7,6 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
 from dataclasses import replace
-from types import MappingProxyType
 from typing import Final
 
 from app.screens.field_texts import cell_of, unusable
@@ -21,27 +20,23 @@ from core.program.model import Block, Number, Segment, Unread
 from core.program.solve.solved import Solution, Solved, SolvedRun, SolvedSegment, Value, solution_at
 from core.units import Unit
 
-RIGHT_COLUMN: Final[Mapping[Form, frozenset[str]]] = MappingProxyType(
-    {
-        Form.START: frozenset({"plunge_feed", "speed", "peck_depth", "lookahead", "coolant"}),
-        Form.LINE: frozenset({"length", "angle", "parallel", "offset", "feed", "tangent"}),
-        Form.ARC: frozenset({"x_center", "y_center", "radius", "sweep", "start_angle", "feed", "tangent"}),
-        Form.BLEND: frozenset({"feed"}),
-        Form.CHAMFER: frozenset({"feed"}),
-    }
-)
+RIGHT_COLUMN: Final[Mapping[Form, frozenset[str]]] = {
+    Form.START: frozenset({"plunge_feed", "speed", "peck_depth", "lookahead", "coolant"}),
+    Form.LINE: frozenset({"length", "angle", "parallel", "offset", "feed", "tangent"}),
+    Form.ARC: frozenset({"x_center", "y_center", "radius", "sweep", "start_angle", "feed", "tangent"}),
+    Form.BLEND: frozenset({"feed"}),
+    Form.CHAMFER: frozenset({"feed"}),
+}
 """The fields in the right column of each form; all others are in the left one."""
 MISSING_CODES: Final = frozenset({"MISSING", "TOOL_VALUE"})
 """The findings on blank fields of START that are needed."""
-PERMANENT_STOPS: Final[Mapping[Form, frozenset[str]]] = MappingProxyType(
-    {
-        Form.START: frozenset({"cutter_comp", "x_start", "y_start"}),
-        Form.LINE: frozenset({"x_end", "y_end"}),
-        Form.ARC: frozenset({"direction", "x_end", "y_end"}),
-        Form.BLEND: frozenset({"radius"}),
-        Form.CHAMFER: frozenset({"length"}),
-    }
-)
+PERMANENT_STOPS: Final[Mapping[Form, frozenset[str]]] = {
+    Form.START: frozenset({"cutter_comp", "x_start", "y_start"}),
+    Form.LINE: frozenset({"x_end", "y_end"}),
+    Form.ARC: frozenset({"direction", "x_end", "y_end"}),
+    Form.BLEND: frozenset({"radius"}),
+    Form.CHAMFER: frozenset({"length"}),
+}
 """The fields at which Enter always stops."""
 UNLESS_CALCULATED: Final = frozenset({"x_center", "y_center", "radius"})
 """The fields of an ARC at which Enter stops unless they are calculated."""

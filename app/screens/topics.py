@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import dataclass
-from types import MappingProxyType
 from typing import Final
 
 from core.program.fields import FIELDS_OF_FORM, SOLUTION, Field, Form
@@ -88,88 +87,80 @@ _LINE_AND_ARC: Final = {
 }
 """The topics of fields that a LINE and an ARC share."""
 
-TOPICS: Final[Mapping[tuple[Form, str], Topic]] = MappingProxyType(
-    {
-        (Form.START, "tool"): Topic(
-            "The tool's diameter comes from TOOL SETUP; half of it is how far the path stands off."
-        ),
-        (Form.START, "cutter_comp"): Topic(
-            "ON runs the tool's center on the contour. LEFT and RIGHT keep the tool beside it, seen along the travel. "
-            "PROFILE also clears the material outside in several passes.",
-            _SIDES,
-        ),
-        (Form.START, "finish_tool"): Topic(
-            "0 is none. Else TOOL leaves the finish allowances, and this tool takes them."
-        ),
-        (Form.START, "x_start"): Topic(
-            "START is where segment 1 begins. The middle of a side is a better place than a corner."
-        ),
-        (Form.START, "y_start"): Topic(
-            "START is where segment 1 begins. A contour that ends where it starts is closed."
-        ),
-        (Form.START, "z_start"): Topic("The surface of the raw material. Rapids stay above it by RETRACT CLEARANCE."),
-        (Form.START, "z_bottom"): Topic("The deepest the tool may go, below Z START: usually a negative number."),
-        (Form.START, "plunge_feed"): Topic(
-            "The tool goes straight down with it, in the material, and mills with it where FEED of segment 1 is blank."
-        ),
-        (Form.START, "speed"): Topic("Written as S before the block begins."),
-        (Form.START, "peck_depth"): Topic(
-            "The contour is milled once at each depth; the last pass takes what is left.", _PECK
-        ),
-        (Form.START, "coolant"): Topic("Turned on when the spindle turns. Blank takes the coolant of the tool."),
-        (Form.START, "lookahead"): Topic(
-            "How many segments further the path is checked for a segment that the tool cannot reach. CAL is the "
-            "control's own value; one that is too small gouges, one that is too large leaves corners. Space shows all "
-            "values, F3 goes back to CAL.",
-            _AHEAD,
-        ),
-        (Form.LINE, "length"): Topic(
-            "Two of X END, Y END, XY LENGTH and XY ANGLE fix a line; the others are calculated."
-        ),
-        (Form.LINE, "angle"): Topic(
-            "The direction of travel, not of the edge: the same edge the other way is 180 more.", _ANGLE
-        ),
-        (Form.ARC, "direction"): Topic("CW turns as the hands of a clock, seen from above."),
-        (Form.ARC, "x_center"): _CENTER,
-        (Form.ARC, "y_center"): _CENTER,
-        (Form.ARC, "radius"): Topic(
-            "From the center to the contour, not of the tool's path. With both ends, two arcs may fit."
-        ),
-        (Form.ARC, "sweep"): Topic("How far around it goes, in its direction. 360 is the full circle.", _SWEEP),
-        **{(form, name): topic for form in (Form.LINE, Form.ARC) for name, topic in _LINE_AND_ARC.items()},
-        **{(form, "feed"): _FEED for form in (Form.LINE, Form.ARC, Form.BLEND, Form.CHAMFER)},
-        (Form.LINE, "point_dist"): Topic("With POINT X and POINT Y: how far the line passes beside that point."),
-        (Form.LINE, "parallel"): Topic("The line runs in the direction of that LINE, or the opposite one."),
-        (Form.LINE, "offset"): Topic("With PARALLEL TO: how far apart the two lines are."),
-        (Form.ARC, "start_angle"): Topic("The direction of travel where the arc starts.", _ANGLE),
-        (Form.BLEND, "radius"): Topic("The two segments are shortened to where this arc touches them.", _CORNER),
-        (Form.CHAMFER, "length"): Topic("The two segments are shortened by this length.", _CORNER),
-        (Form.TOOL, "number"): Topic("The number a block calls and T and H write. Another number moves the row."),
-        (Form.TOOL, "type"): Topic("Any words; they stand in the NC file's head and on the setup sheet."),
-        (Form.TOOL, "diameter"): Topic("The diameter it cuts. Every path of the tool follows a change at once."),
-        (Form.TOOL, "speed"): Topic("Blocks with this tool run at it where their own SPEED is blank."),
-        (Form.TOOL, "feed"): Topic("Blocks with this tool mill at it where segment 1 has no FEED."),
-        (Form.TOOL, "plunge_feed"): Topic("Blocks with this tool go down at it where their own PLUNGE FEED is blank."),
-        (Form.TOOL, "coolant"): Topic("Blocks with this tool turn it on where their own COOLANT is blank."),
-        (Form.PARAMETERS, "blend_offset"): Topic(
-            "The tool comes to the contour and leaves it on an arc. 0 goes straight.", _BLEND
-        ),
-        (Form.PARAMETERS, "blend_overlap"): Topic("Only closed contours have it.", _OVERLAP),
-        (Form.PARAMETERS, "finish_xy"): Topic("Only with a FINISH TOOL on START: what it takes off the sides."),
-        (Form.PARAMETERS, "finish_z"): Topic("Only with a FINISH TOOL on START: what it takes off the floor."),
-        (Form.PARAMETERS, "pocket_overlap"): Topic("50 moves each PROFILE pass over by half the tool."),
-        (Form.PARAMETERS, "max_offset"): Topic("The material outside the contour. 0 makes one pass along it."),
-        (Form.PARAMETERS, "retract_clearance"): Topic("Above Z START nothing may stand in the way this high."),
-        (Form.PARAMETERS, "peck_clearance"): Topic("From there on down it is PLUNGE FEED."),
-        (Form.PARAMETERS, "path"): Topic(
-            "CONTROL is what the control itself would mill. BEST reaches all the tool can reach."
-        ),
-        (Form.PARAMETERS, "rapid_feed"): Topic("The times on PROGRAM and the setup sheet are based on it."),
-        (Form.SETUP, "name"): Topic("Any words; signs a control would obey are written as others."),
-        (Form.SETUP, "work_offset"): Topic("Which of the machine's zero points the part is clamped to."),
-        (Form.SETUP, "safe_z"): Topic("Where the tool changes and where it ends. Clamps must stay below it."),
-    }
-)
+TOPICS: Final[Mapping[tuple[Form, str], Topic]] = {
+    (Form.START, "tool"): Topic(
+        "The tool's diameter comes from TOOL SETUP; half of it is how far the path stands off."
+    ),
+    (Form.START, "cutter_comp"): Topic(
+        "ON runs the tool's center on the contour. LEFT and RIGHT keep the tool beside it, seen along the travel. "
+        "PROFILE also clears the material outside in several passes.",
+        _SIDES,
+    ),
+    (Form.START, "finish_tool"): Topic("0 is none. Else TOOL leaves the finish allowances, and this tool takes them."),
+    (Form.START, "x_start"): Topic(
+        "START is where segment 1 begins. The middle of a side is a better place than a corner."
+    ),
+    (Form.START, "y_start"): Topic("START is where segment 1 begins. A contour that ends where it starts is closed."),
+    (Form.START, "z_start"): Topic("The surface of the raw material. Rapids stay above it by RETRACT CLEARANCE."),
+    (Form.START, "z_bottom"): Topic("The deepest the tool may go, below Z START: usually a negative number."),
+    (Form.START, "plunge_feed"): Topic(
+        "The tool goes straight down with it, in the material, and mills with it where FEED of segment 1 is blank."
+    ),
+    (Form.START, "speed"): Topic("Written as S before the block begins."),
+    (Form.START, "peck_depth"): Topic(
+        "The contour is milled once at each depth; the last pass takes what is left.", _PECK
+    ),
+    (Form.START, "coolant"): Topic("Turned on when the spindle turns. Blank takes the coolant of the tool."),
+    (Form.START, "lookahead"): Topic(
+        "How many segments further the path is checked for a segment that the tool cannot reach. CAL is the "
+        "control's own value; one that is too small gouges, one that is too large leaves corners. Space shows all "
+        "values, F3 goes back to CAL.",
+        _AHEAD,
+    ),
+    (Form.LINE, "length"): Topic("Two of X END, Y END, XY LENGTH and XY ANGLE fix a line; the others are calculated."),
+    (Form.LINE, "angle"): Topic(
+        "The direction of travel, not of the edge: the same edge the other way is 180 more.", _ANGLE
+    ),
+    (Form.ARC, "direction"): Topic("CW turns as the hands of a clock, seen from above."),
+    (Form.ARC, "x_center"): _CENTER,
+    (Form.ARC, "y_center"): _CENTER,
+    (Form.ARC, "radius"): Topic(
+        "From the center to the contour, not of the tool's path. With both ends, two arcs may fit."
+    ),
+    (Form.ARC, "sweep"): Topic("How far around it goes, in its direction. 360 is the full circle.", _SWEEP),
+    **{(form, name): topic for form in (Form.LINE, Form.ARC) for name, topic in _LINE_AND_ARC.items()},
+    **{(form, "feed"): _FEED for form in (Form.LINE, Form.ARC, Form.BLEND, Form.CHAMFER)},
+    (Form.LINE, "point_dist"): Topic("With POINT X and POINT Y: how far the line passes beside that point."),
+    (Form.LINE, "parallel"): Topic("The line runs in the direction of that LINE, or the opposite one."),
+    (Form.LINE, "offset"): Topic("With PARALLEL TO: how far apart the two lines are."),
+    (Form.ARC, "start_angle"): Topic("The direction of travel where the arc starts.", _ANGLE),
+    (Form.BLEND, "radius"): Topic("The two segments are shortened to where this arc touches them.", _CORNER),
+    (Form.CHAMFER, "length"): Topic("The two segments are shortened by this length.", _CORNER),
+    (Form.TOOL, "number"): Topic("The number a block calls and T and H write. Another number moves the row."),
+    (Form.TOOL, "type"): Topic("Any words; they stand in the NC file's head and on the setup sheet."),
+    (Form.TOOL, "diameter"): Topic("The diameter it cuts. Every path of the tool follows a change at once."),
+    (Form.TOOL, "speed"): Topic("Blocks with this tool run at it where their own SPEED is blank."),
+    (Form.TOOL, "feed"): Topic("Blocks with this tool mill at it where segment 1 has no FEED."),
+    (Form.TOOL, "plunge_feed"): Topic("Blocks with this tool go down at it where their own PLUNGE FEED is blank."),
+    (Form.TOOL, "coolant"): Topic("Blocks with this tool turn it on where their own COOLANT is blank."),
+    (Form.PARAMETERS, "blend_offset"): Topic(
+        "The tool comes to the contour and leaves it on an arc. 0 goes straight.", _BLEND
+    ),
+    (Form.PARAMETERS, "blend_overlap"): Topic("Only closed contours have it.", _OVERLAP),
+    (Form.PARAMETERS, "finish_xy"): Topic("Only with a FINISH TOOL on START: what it takes off the sides."),
+    (Form.PARAMETERS, "finish_z"): Topic("Only with a FINISH TOOL on START: what it takes off the floor."),
+    (Form.PARAMETERS, "pocket_overlap"): Topic("50 moves each PROFILE pass over by half the tool."),
+    (Form.PARAMETERS, "max_offset"): Topic("The material outside the contour. 0 makes one pass along it."),
+    (Form.PARAMETERS, "retract_clearance"): Topic("Above Z START nothing may stand in the way this high."),
+    (Form.PARAMETERS, "peck_clearance"): Topic("From there on down it is PLUNGE FEED."),
+    (Form.PARAMETERS, "path"): Topic(
+        "CONTROL is what the control itself would mill. BEST reaches all the tool can reach."
+    ),
+    (Form.PARAMETERS, "rapid_feed"): Topic("The times on PROGRAM and the setup sheet are based on it."),
+    (Form.SETUP, "name"): Topic("Any words; signs a control would obey are written as others."),
+    (Form.SETUP, "work_offset"): Topic("Which of the machine's zero points the part is clamped to."),
+    (Form.SETUP, "safe_z"): Topic("Where the tool changes and where it ends. Clamps must stay below it."),
+}
 """The topics by form and field name."""
 
 

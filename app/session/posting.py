@@ -9,7 +9,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Final
 
 from app.session.formats import length, segment_numbers
-from core.finding import Finding, Severity
+from core.finding import Severity
 from core.pipeline.derived import Derived, DerivedBlock
 from core.program.model import Program
 from core.progress import Progress, silent
@@ -66,19 +66,18 @@ def nc_text(
     asked = unit_question(derived)
     notes = () if asked is None else (sentence(asked, unit),)
     if isinstance(result, Posted):
-        remarks = (*_warnings(derived), *result.notes)
+        # each with its block's number; warnings do not prevent posting
+        warnings = (
+            replace(finding, block=block.number)
+            for block in derived.blocks
+            for finding in block.findings
+            if finding.severity is Severity.WARNING
+        )
+        remarks = (*warnings, *result.notes)
         return PostedText(result.text, notes=(*notes, *(located_sentence(note, unit) for note in remarks)))
     against, remedies = refusals(derived, result)
     overridable = choice == CENTER_PATH and all(finding.code in OVERRIDABLE_CODES for finding in result.findings)
     return PostedText(against=against, notes=(*remedies, *notes), overridable=overridable)
-
-
-def _warnings(derived: Derived) -> Iterator[Finding]:
-    """Yield the warnings of all blocks, which do not prevent posting, each with its block's number."""
-    for block in derived.blocks:
-        for finding in block.findings:
-            if finding.severity is Severity.WARNING:
-                yield replace(finding, block=block.number)
 
 
 def refusals(derived: Derived, refusal: Refusal) -> tuple[tuple[str, ...], tuple[str, ...]]:

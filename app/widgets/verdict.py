@@ -9,7 +9,6 @@ from __future__ import annotations
 from collections.abc import Iterable, Mapping
 from dataclasses import dataclass
 from math import isfinite
-from types import MappingProxyType
 from typing import TYPE_CHECKING, Final, NamedTuple
 
 from textual.app import ComposeResult
@@ -64,13 +63,11 @@ class Marks(NamedTuple):
     value: str
 
 
-MARKS_OF_CHARACTERS: Final[Mapping[str, Marks]] = MappingProxyType(
-    {
-        "braille": Marks("✖", "▲", "×", "✓", "•"),
-        "block": Marks("!", "▲", "x", "√", "·"),
-        "ascii": Marks("!", "^", "x", "ok", "."),
-    }
-)
+MARKS_OF_CHARACTERS: Final[Mapping[str, Marks]] = {
+    "braille": Marks("✖", "▲", "×", "✓", "•"),
+    "block": Marks("!", "▲", "x", "√", "·"),
+    "ascii": Marks("!", "^", "x", "ok", "."),
+}
 """The signs for each character set of the drawing; every font on such a terminal has them."""
 
 
