@@ -18,9 +18,9 @@ from app.documents.document_service import DocumentService, Notice, Opened, Trou
 from app.documents.nc_text import NC_SUFFIXES
 from app.documents.paths import is_drawing, is_folder, program_named
 from app.documents.programs import empty_program, is_nc
+from app.documents.programs import example as example_file
 from app.documents.settings import SettingsFile, load_settings, settings_file
 from app.documents.time_limits import EXIT_SECONDS
-from core.program.file.read import StoreError
 
 if TYPE_CHECKING:
     from app.app import CutcompApp
@@ -52,14 +52,11 @@ def run(
         path = None
     drawing = path if path is not None and check_request is None and is_drawing(path) else None
     service = DocumentService()
-    try:
-        if drawing is not None:
-            opened: Opened[Any] | Trouble = service.new()
-        else:
-            opened = service.open(path) if check_request and path else begin(service, path, example)
-    except StoreError as error:
-        say(str(error))
-        return STATUS_UNUSABLE
+    opened: Opened[Any] | Trouble
+    if drawing is not None:
+        opened = service.new()
+    else:
+        opened = service.open(path) if check_request and path else begin(service, path, example)
     if isinstance(opened, Trouble):
         say(opened.text)
         return STATUS_UNUSABLE
@@ -98,9 +95,9 @@ def in_browser() -> bool:
 
 
 def begin(service: DocumentService, path: Path | None, example: str | None) -> Opened[Any] | Trouble:
-    """Return the document to begin with, or the trouble with it; raise StoreError if the file is not a program."""
+    """Return the document to begin with, or the trouble with it."""
     if example is not None:
-        return service.example(example)
+        return service.open(example_file(example))
     if path is not None and path.suffix.lower() in NC_SUFFIXES and not path.exists():
         return Trouble(f"{path}: there is no such NC program.")
     return service.new(offers=True) if path is None else service.open(program_named(path))

@@ -297,13 +297,13 @@ class DocumentService:
 
         `kept_copy` is a journal that was set aside; its work is offered first.
         """
-        if path.parent == examples():
-            return self.example(path.stem)
         if _real_path(path) is None:
             return Trouble(f"{short_path(path)} cannot be opened: that is not a file name. Choose another.")
         if (entry := self._open_here(path)) is not None:
             return Trouble(f"{printable(path.name)} is open already.", entry.latest)
         try:
+            if path.parent == examples():
+                return self.example(path.stem)
             document = within(FILE_SECONDS, lambda: self._read(path, kept_copy))
         except TimeoutError as error:
             return Trouble(f"{short_path(path)} cannot be opened: {error}.")

@@ -60,3 +60,9 @@ def test_an_unreadable_file_is_reported_by_name(service: DocumentService, folder
     result = begin(service, Path("pk2.toml"), None)
     assert isinstance(result, Trouble)
     assert "pk2.toml" in result.text
+
+
+def test_a_name_without_a_file_in_the_folder_of_the_examples_is_refused() -> None:
+    result = DocumentService().open(example("none"))
+    assert isinstance(result, Trouble)
+    assert "none.toml cannot be read: there is no such file or folder." in result.text
