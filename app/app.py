@@ -184,7 +184,7 @@ class CutcompApp(TransformActions):
             document = self._opened.document
             if isinstance(document, NcDocument):
                 self.show_nc(document, self._check_request)
-            elif document.file.path is not None:
+            else:
                 self.keep_settings(self.settings.using(document.file.path))
             self.show_notice_and_ask(self._opened)
 

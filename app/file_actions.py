@@ -14,32 +14,12 @@ from typing import TYPE_CHECKING, Any, TypeVar
 from textual import work
 
 from app.derivation_actions import DerivationActions
+from app.documents import paths, questions
 from app.documents.document import AnyDocument, ContourDocument, Document, NcDocument
 from app.documents.document_service import DocumentService, Notice, Offer, Opened, Saved, Trouble
 from app.documents.files import refuse_program, write_output
 from app.documents.nc_text import NC_SUFFIXES
-from app.documents.paths import (
-    is_drawing,
-    is_folder,
-    path_of_text,
-    program_named,
-    resolved_name,
-    short_path,
-    with_suffix,
-    written_path,
-)
-from app.documents.questions import (
-    DISCARD,
-    GO_BACK,
-    NEW_PROGRAM,
-    SAVE,
-    QuestionText,
-    before_output,
-    held_sentence,
-    into_which,
-    leaving,
-    name_of,
-)
+from app.documents.questions import QuestionText
 from app.documents.settings import Settings, SettingsFile
 from app.documents.time_limits import Disk
 from app.documents.unsaved_work import file_of_copy
@@ -170,7 +150,7 @@ class FileActions(DerivationActions):
         holder = self.document.file.holder
         if holder is None:
             return ""
-        return f"{held_sentence(holder, self.service.clock())} SAVE AS (Ctrl+K) makes a copy of your own."
+        return f"{questions.held_sentence(holder, self.service.clock())} SAVE AS (Ctrl+K) makes a copy of your own."
 
     def keep_settings(self, settings: Settings) -> None:
         """Use these settings from now on and save them."""
@@ -193,8 +173,7 @@ class FileActions(DerivationActions):
             self.document = document
             self.switch_session(session_of(document))
             self._uncover(0)
-            if document.file.path is not None:
-                self.keep_settings(self.settings.using(document.file.path))
+            self.keep_settings(self.settings.using(document.file.path))
         self.show_notice_and_ask(opened)
 
     def show_notice_and_ask(self, opened: Opened[Any]) -> None:
@@ -227,11 +206,11 @@ class FileActions(DerivationActions):
 
         def opened() -> Opened[Any] | Trouble | Path:
             if not kept_copy:
-                where = resolved_name(path, here)
-                if where.suffix.lower() not in NC_SUFFIXES and not is_drawing(where):
+                where = paths.resolved_name(path, here)
+                if where.suffix.lower() not in NC_SUFFIXES and not paths.is_drawing(where):
                     # any other name means a cutcomp program
-                    where = program_named(where)
-                return where if is_folder(where) or is_drawing(where) else service.open(where)
+                    where = paths.program_named(where)
+                return where if paths.is_folder(where) or paths.is_drawing(where) else service.open(where)
             file = file_of_copy(path, path.parent)
             return service.copy_without_name(path) if file is None else service.open(file, kept_copy=path)
 
@@ -240,7 +219,7 @@ class FileActions(DerivationActions):
             await self._open_already(result, opened, again=kept_copy)
         elif isinstance(result, Trouble):
             self.say(result.text, Tone.ERROR)
-        elif isinstance(result, Path) and is_drawing(result):
+        elif isinstance(result, Path) and paths.is_drawing(result):
             await self._open_drawing(result)
         elif isinstance(result, Path):
             self.show_folder(result)
@@ -250,14 +229,14 @@ class FileActions(DerivationActions):
     async def _open_drawing(self, path: Path) -> None:
         """Open IMPORT on a drawing; unless the open program is new, ask whether to import into it or a new one."""
         if not self.disk.do(path.is_file):
-            self.say(f"{short_path(path)}: there is no such drawing.", Tone.ERROR)
+            self.say(f"{paths.short_path(path)}: there is no such drawing.", Tone.ERROR)
             return
         program, fresh = self.document.program, self.document.is_new
         if not fresh:
-            word = await self.ask(into_which(path, self.document))
-            if word == GO_BACK:
+            word = await self.ask(questions.into_which(path, self.document))
+            if word == questions.GO_BACK:
                 return
-            if word == NEW_PROGRAM:
+            if word == questions.NEW_PROGRAM:
                 if not await self._new("NEW PROGRAM?", program.unit):
                     return
                 fresh = True
@@ -324,10 +303,10 @@ class FileActions(DerivationActions):
             return False
         ours = [self.document] if self.document.file.opening in openings else []
         half_typed = self.screen.half_typed_sentence if ours and isinstance(self.screen, BaseScreen) else ""
-        ask = leaving(title, [*ours, *(proof.document for proof in proofs)], half_typed)
-        word = DISCARD if ask is None else await self.ask(ask)
-        if word != SAVE:
-            return word == DISCARD
+        ask = questions.leaving(title, [*ours, *(proof.document for proof in proofs)], half_typed)
+        word = questions.DISCARD if ask is None else await self.ask(ask)
+        if word != questions.SAVE:
+            return word == questions.DISCARD
         if half_typed and not self.take_typed():
             return False
         for proof in proofs:
@@ -391,9 +370,9 @@ class FileActions(DerivationActions):
         proof = self.proofs[-1] if self.proofs and self.screen_stack[-2:-1] == self.proofs[-1:] else None
         if proof is not None:
             old = proof.document.file.path
-            self._save(proof, with_suffix(path_of_text(text), ".nc" if old is None else old.suffix))
+            self._save(proof, paths.with_suffix(paths.path_of_text(text), ".nc" if old is None else old.suffix))
         else:
-            self._save(None, path_of_text(text))
+            self._save(None, paths.path_of_text(text))
 
     async def write_made(self, text: str, suffix: str, make: Callable[[Path], str]) -> tuple[str, str] | None:
         """Write the text from `make` under a typed name; return where it was written and the text, None if it was not.
@@ -401,19 +380,19 @@ class FileActions(DerivationActions):
         Ask before replacing a file; report the errors of `make` and the disk.  Call only in a worker.
         """
         file = self.session.file
-        path = self.disk.do(lambda: with_suffix(resolved_name(path_of_text(text), file), suffix))
+        path = self.disk.do(lambda: paths.with_suffix(paths.resolved_name(paths.path_of_text(text), file), suffix))
 
         def before() -> QuestionText | None:
             refuse_program(path)
-            return before_output(path, file)
+            return questions.before_output(path, file)
 
         def written(made: str) -> str:
             write_output(path, made)
-            return written_path(path)
+            return paths.written_path(path)
 
         try:
             ask = self.disk.do(before)
-            if ask is not None and await self.ask(ask) == GO_BACK:
+            if ask is not None and await self.ask(ask) == questions.GO_BACK:
                 return None
             made = await asyncio.to_thread(make, path)
             return self.disk.do(partial(written, made)), made
@@ -438,14 +417,14 @@ class FileActions(DerivationActions):
         agreed = frozenset[str]()
         if path is None and document.file.path is None:
             name = await self.push_screen_wait(
-                Phrase("SAVE AS", [f"{name_of(document)} needs a name. Enter saves it."])
+                Phrase("SAVE AS", [f"{questions.name_of(document)} needs a name. Enter saves it."])
             )
             if not name.strip():
                 return None
-            path = path_of_text(name)
+            path = paths.path_of_text(name)
         while isinstance(result := self.disk.do(partial(self.service.save, document, path, agreed)), QuestionText):
             word = await self.ask(result)
-            if word == GO_BACK:
+            if word == questions.GO_BACK:
                 return None
             agreed |= {word}
         if isinstance(result, Trouble):
@@ -476,8 +455,7 @@ class FileActions(DerivationActions):
         else:
             self.document = self.document.after_saving(result.document)
             self.switch_session(session_of(self.document, self.session))
-            if self.document.file.path is not None:
-                self.keep_settings(self.settings.using(self.document.file.path))
+            self.keep_settings(self.settings.using(self.document.file.path))
             self.clear_notice()
         self.notify(result.notice.text, timeout=4)
         return True

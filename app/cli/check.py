@@ -20,17 +20,8 @@ from app.documents.paths import printable_path
 from core.controls.control_tools import commented_size
 from core.controls.program_text import lines_of
 from core.controls.registry import choices
-from core.pipeline.checking import (
-    Answer,
-    CheckRequest,
-    answer,
-    answer_all,
-    counted,
-    lines,
-    reasons,
-    same_contours,
-    unreadable,
-)
+from core.pipeline import checking
+from core.pipeline.checking import Answer, CheckRequest
 from core.units import Unit
 
 JSON_VERSION: Final = 1
@@ -91,7 +82,7 @@ def _programs(files: list[Path]) -> Iterator[Path]:
         if programs and len(programs) < len(all_files):
             others = {file.suffix.lower() or file.name for file in all_files if not _is_program(file)}
             names = " ".join(map(printable_path, sorted(others)[:MAX_NAMES]))
-            count = counted(len(all_files) - len(programs), "file")
+            count = checking.counted(len(all_files) - len(programs), "file")
             text = f"{printable_path(path)}: {count} left out that are no programs by their names: {names}"
             say(text)
         yield from programs or [path]
@@ -120,7 +111,7 @@ def _check_file(path: Path, request: CheckRequest) -> _Checked:
     except Unusable as error:
         return _Checked(path, unusable=str(error))
     request = replace(request, library=FolderLibrary(path.parent))
-    answers = answer_all(text, request) if request.control == "all" else (answer(text, request),)
+    answers = checking.answer_all(text, request) if request.control == "all" else (checking.answer(text, request),)
     return _Checked(path, answers, text=text if any(result.missing for result in answers) else b"")
 
 
@@ -137,7 +128,7 @@ def _contours(paths: list[Path], request: CheckRequest) -> int:
     if len(paths) != 2:
         raise Unusable("--contour compares two files.")
     first, second = (bytes_of(path) for path in paths)
-    same, report = same_contours(first, second, request)
+    same, report = checking.same_contours(first, second, request)
     print(*report, sep="\n")
     return STATUS_CLEAN if same else STATUS_FINDINGS
 
@@ -148,7 +139,7 @@ def _as_json(answers: Iterator[_Checked]) -> int:
     for checked in answers:
         status = max(status, _status_of(checked))
         if checked.unusable:
-            results.append(unreadable(str(checked.path), checked.unusable))
+            results.append(checking.unreadable(str(checked.path), checked.unusable))
         results += [{"file": str(checked.path), **result.json()} for result in checked.answers]
     json.dump({"version": JSON_VERSION, "results": results}, sys.stdout)
     print()
@@ -163,7 +154,7 @@ def _as_text(answers: Iterator[_Checked], request: CheckRequest) -> int:
         if request.control == "all" and checked.answers:
             _print_table(checked.answers)
         elif checked.answers:
-            print(*lines(checked.answers[0]), sep="\n")
+            print(*checking.lines(checked.answers[0]), sep="\n")
         _print_missing(checked.answers, lines_of(checked.text))
     return status
 
@@ -173,7 +164,7 @@ def _print_table(answers: tuple[Answer, ...]) -> None:
     outcome = max(len(result.outcome_and_warnings) for result in answers)
     for result in answers:
         print(f"{result.name:<{width}}  {result.outcome_and_warnings:<{outcome}}  {result.comparison}".rstrip())
-    for reason in reasons(answers):
+    for reason in checking.reasons(answers):
         print(reason)
 
 

@@ -12,48 +12,15 @@ from dataclasses import dataclass, field, replace
 from pathlib import Path
 from typing import Any, Final, Generic
 
-from app.documents import questions, times
+from app.documents import files, paths, questions, times, unsaved_work
 from app.documents.document import MAX_BYTES, AnyDocument, ContourDocument, Document, FileState, NcDocument
-from app.documents.files import (
-    holds_program,
-    load,
-    read_file,
-    refuse_program,
-    remove_killed_saves,
-    stamp_of,
-    stamp_of_data,
-    why,
-    write_data,
-)
 from app.documents.journal import Head, Journal, Kind, beginning, continuing, records_between, same_edits
 from app.documents.journal_file import JournalFile, Record, journal_path, new_path, reason_set_aside, set_aside
 from app.documents.lock import Lock, Owner, alive, held_by, myself, release, take, take_over, taken_by
-from app.documents.paths import (
-    as_program,
-    folder,
-    is_folder,
-    is_outside_folder,
-    printable_path,
-    resolved_name,
-    short_path,
-    written_path,
-)
 from app.documents.programs import empty_program, example, examples
 from app.documents.questions import GO_BACK, QuestionText, held_sentence, name_of, person, whole_name
 from app.documents.time_limits import FILE_SECONDS, within
-from app.documents.unsaved_work import (
-    UnreadableWork,
-    elsewhere,
-    journal_place,
-    new_journal,
-    of_user,
-    read,
-    state_folder,
-    unreadable,
-    unsaved_work_on,
-    wants_answer,
-    work_of_dead_processes,
-)
+from app.documents.unsaved_work import UnreadableWork
 from core.program.file.read import StoreError
 from core.program.model import unread_texts
 from core.units import Unit, printable
@@ -204,7 +171,7 @@ class _OpenDocument:
     def begin(self, now: str) -> None:
         """Begin a journal with all work, beside the file if possible, else elsewhere; raise OSError if both fail."""
         path = self.latest.file.path
-        self.journal = new_journal(journal_place(path, self.me, self.state), path)
+        self.journal = unsaved_work.new_journal(unsaved_work.journal_place(path, self.me, self.state), path)
         try:
             self.journal.add(self.all_records(now))
         except OSError:
@@ -217,7 +184,7 @@ class _OpenDocument:
         if path is None or (self.journal is not None and self.journal.path.parent == self.state):
             return False
         try:
-            other = new_journal(elsewhere(path, self.state), path)
+            other = unsaved_work.new_journal(unsaved_work.elsewhere(path, self.state), path)
             other.add(self.all_records(now))
         except OSError:
             return False
@@ -234,10 +201,10 @@ class _OpenDocument:
         sentences = []
         if gone:
             sentences.append(
-                f"The journal of unsaved work was gone: all of it is in {printable_path(journal.path)} now."
+                f"The journal of unsaved work was gone: all of it is in {paths.printable_path(journal.path)} now."
             )
         elif path is not None and journal.path.parent == self.state and not self.away:
-            place = printable_path(str(journal.path.parent))
+            place = paths.printable_path(str(journal.path.parent))
             sentences.append(f"The folder of {printable(path.name)} takes nothing: unsaved work is kept in {place}")
         self.away = self.away or journal.path.parent == self.state
         if aside is not None:
@@ -271,7 +238,7 @@ class DocumentService:
     """
 
     me: Owner = field(default_factory=lambda: myself(times.now()))
-    state: Path = field(default_factory=state_folder)
+    state: Path = field(default_factory=unsaved_work.state_folder)
     clock: Callable[[], str] = times.now
     _open: dict[object, _OpenDocument] = field(default_factory=dict)
 
@@ -288,7 +255,7 @@ class DocumentService:
 
     def example(self, name: str) -> Opened[ContourDocument]:
         """Open an example; SAVE cannot overwrite it, since it has no file until SAVE AS gives it a name."""
-        document = ContourDocument.of(load(example(name)), title=name)
+        document = ContourDocument.of(files.load(example(name)), title=name)
         self._entry(document)
         return Opened(document, Notice(f"Example {name}. Ctrl+S saves it under a name."))
 
@@ -298,7 +265,7 @@ class DocumentService:
         `kept_copy` is a journal that was set aside; its work is offered first.
         """
         if _real_path(path) is None:
-            return Trouble(f"{short_path(path)} cannot be opened: that is not a file name. Choose another.")
+            return Trouble(f"{paths.short_path(path)} cannot be opened: that is not a file name. Choose another.")
         if (entry := self._open_here(path)) is not None:
             return Trouble(f"{printable(path.name)} is open already.", entry.latest)
         try:
@@ -306,13 +273,17 @@ class DocumentService:
                 return self.example(path.stem)
             document = within(FILE_SECONDS, lambda: self._read(path, kept_copy))
         except TimeoutError as error:
-            return Trouble(f"{short_path(path)} cannot be opened: {error}.")
+            return Trouble(f"{paths.short_path(path)} cannot be opened: {error}.")
         except OSError as error:
-            return Trouble(f"{short_path(path)} cannot be opened: {why(error)}")
+            return Trouble(f"{paths.short_path(path)} cannot be opened: {files.why(error)}")
         except StoreError as error:
             return Trouble(error.text)
         new = document.file.stamp is None and not os.path.lexists(path) and kept_copy is None
-        text = f"{short_path(path)} does not exist yet: saving makes it." if new else f"Opened: {short_path(path)}"
+        text = (
+            f"{paths.short_path(path)} does not exist yet: saving makes it."
+            if new
+            else f"Opened: {paths.short_path(path)}"
+        )
         return self._opened(document, Notice(text), kept_copy)
 
     def copy_without_name(self, kept_copy: Path) -> Opened[ContourDocument]:
@@ -329,7 +300,7 @@ class DocumentService:
     def changed(self, document: Document) -> bool:
         """True if a document's file differs from what was last read or saved."""
         path, then = document.file.path, document.file.stamp
-        now = None if path is None else stamp_of(path, MAX_BYTES[document.kind])
+        now = None if path is None else files.stamp_of(path, MAX_BYTES[document.kind])
         return (now is None) is not (then is None) or not (now is None or then is None or now.same_content(then))
 
     def _read(self, path: Path, kept_copy: Path | None) -> Document:
@@ -337,23 +308,23 @@ class DocumentService:
         named = FileState(path)
         program = path.suffix.lower() == ".toml"
         try:
-            data, status = read_file(path, MAX_BYTES[Kind.NC])
+            data, status = files.read_file(path, MAX_BYTES[Kind.NC])
         except FileNotFoundError as error:
             if kept_copy is not None and not program:
                 return NcDocument(file=named)
             if kept_copy is not None or (program and path.parent.is_dir() and not path.is_symlink()):
                 return ContourDocument.of(empty_program(), named)
-            raise StoreError(f"{short_path(path)} cannot be opened: {why(error)}") from error
+            raise StoreError(f"{paths.short_path(path)} cannot be opened: {files.why(error)}") from error
         except (OSError, ValueError) as error:
-            trouble = StoreError(f"{short_path(path)} cannot be opened: {why(error)}")
+            trouble = StoreError(f"{paths.short_path(path)} cannot be opened: {files.why(error)}")
             trouble.__cause__ = error
             return self._rescued(named, trouble, kept_copy)
-        if not program and not holds_program(data):
-            return NcDocument.read(data, replace(named, stamp=stamp_of_data(data, status.st_mtime_ns)))
+        if not program and not files.holds_program(data):
+            return NcDocument.read(data, replace(named, stamp=files.stamp_of_data(data, status.st_mtime_ns)))
         if len(data) > MAX_BYTES[Kind.CONTOUR]:
-            raise StoreError(f"{short_path(path)} is too large for a program file. Choose another file.")
+            raise StoreError(f"{paths.short_path(path)} is too large for a program file. Choose another file.")
         try:
-            return ContourDocument.read(data, replace(named, stamp=stamp_of_data(data, status.st_mtime_ns)))
+            return ContourDocument.read(data, replace(named, stamp=files.stamp_of_data(data, status.st_mtime_ns)))
         except StoreError as error:
             return self._rescued(named, error, kept_copy)
 
@@ -363,8 +334,11 @@ class DocumentService:
         It has no stamp, so a save asks first and can keep the file's content, unless not even its bytes can be read.
         """
         assert file.path is not None
-        wanted = None if kept_copy is None else read(kept_copy, Kind.CONTOUR)
-        left = (journal for _, journal in work_of_dead_processes(file.path, Kind.CONTOUR, self.state, self.me.user))
+        wanted = None if kept_copy is None else unsaved_work.read(kept_copy, Kind.CONTOUR)
+        left = (
+            journal
+            for _, journal in unsaved_work.work_of_dead_processes(file.path, Kind.CONTOUR, self.state, self.me.user)
+        )
         journal = wanted or next(left, None)
         if journal is None:
             raise error
@@ -378,7 +352,7 @@ class DocumentService:
             document = entry.remember(replace(document, file=replace(document.file, holder=holder)))
             return Opened(document, notice, Offer(questions.open_already(holder, self.clock()), kept_copy))
         if document.file.path is not None and document.file.stamp is not None:
-            remove_killed_saves(document.file.path)
+            files.remove_killed_saves(document.file.path)
         opened = self._next_offer(document, kept_copy)
         return replace(opened, notice=opened.notice or notice)
 
@@ -394,7 +368,7 @@ class DocumentService:
                 return self._restore(entry, document, path, journal)
             case questions.DISCARD, Path() as path, left if left is not None:
                 return self._put_away(document, path, left, offer.answered, "as a backup in")
-            case questions.NOT_MINE, Path() as path, Journal() as journal if wants_answer(path):
+            case questions.NOT_MINE, Path() as path, Journal() as journal if unsaved_work.wants_answer(path):
                 whose = f"for {printable(journal.head.owner.user)}:"
                 return self._put_away(document, path, journal, offer.answered, whose)
             case _, Path() as path, left if left is not None and word != GO_BACK:
@@ -428,9 +402,12 @@ class DocumentService:
         self, document: Document, kept_copy: Path | None
     ) -> Iterator[tuple[Path, Journal | UnreadableWork]]:
         """Yield the unsaved work to ask about; a chosen kept copy comes first."""
-        if kept_copy is not None and (copy := read(kept_copy, document.kind) or unreadable(kept_copy)) is not None:
+        if (
+            kept_copy is not None
+            and (copy := unsaved_work.read(kept_copy, document.kind) or unsaved_work.unreadable(kept_copy)) is not None
+        ):
             yield kept_copy, copy
-        for path, left in unsaved_work_on(document.file.path, document.kind, self.state):
+        for path, left in unsaved_work.unsaved_work_on(document.file.path, document.kind, self.state):
             if path != kept_copy:
                 yield path, left
 
@@ -451,11 +428,11 @@ class DocumentService:
             return None
         if not chosen and reason_set_aside(path) and not mine:
             return _kept_for(left.head.owner.user, left.time, path, today)
-        copy = chosen and not wants_answer(path)
+        copy = chosen and not unsaved_work.wants_answer(path)
         return questions.unsaved_work(document, left, mine=mine, me=self.me, living=living, chosen=copy, today=today)
 
     def _is_mine(self, path: Path, journal: Journal) -> bool:
-        return of_user(journal.head.owner, path, self.state, self.me.user)
+        return unsaved_work.of_user(journal.head.owner, path, self.state, self.me.user)
 
     def _take_over(self, entry: _OpenDocument, document: AnyDocument, kept_copy: Path | None) -> Opened[AnyDocument]:
         """Read the file again and lock it for this process."""
@@ -501,13 +478,13 @@ class DocumentService:
     def _journal_of_restored(self, entry: _OpenDocument, work: Document, path: Path, journal: Journal) -> Path | None:
         """Begin a journal with the restored work; return the old journal's path unless it is replaced or gone."""
         mine, living = self._is_mine(path, journal), alive(journal.head.owner)
-        replaced = mine and not living and wants_answer(path) and not journal.damaged
-        place, aside = journal_place(work.file.path, self.me, self.state), None
+        replaced = mine and not living and unsaved_work.wants_answer(path) and not journal.damaged
+        place, aside = unsaved_work.journal_place(work.file.path, self.me, self.state), None
         if replaced and path == place:
-            entry.journal = new_journal(path, work.file.path)
+            entry.journal = unsaved_work.new_journal(path, work.file.path)
             entry.journal.replace(entry.all_records(self.clock()))
             return None
-        if journal.damaged and mine and not living and wants_answer(path):
+        if journal.damaged and mine and not living and unsaved_work.wants_answer(path):
             aside = set_aside(path, "damaged") if path.exists() else None
         elif not replaced and path.exists():
             aside = self._move_aside(path, journal)
@@ -545,7 +522,7 @@ class DocumentService:
         except FileNotFoundError:
             notice = Notice("It was saved or discarded meanwhile. Ctrl+O opens the file as it is now.", warning=True)
         except OSError as error:
-            notice = Notice(f"The unsaved work cannot be renamed: {why(error)}", warning=True)
+            notice = Notice(f"The unsaved work cannot be renamed: {files.why(error)}", warning=True)
         return self._next_offer(document, answered=answered | {path, aside}, notice=notice)
 
     # ---- write the journal
@@ -584,7 +561,7 @@ class DocumentService:
             return self._save(document, path, agreed)
         except OSError as error:
             # for example, the current folder is gone
-            return Trouble(f"{name_of(document)} is not saved: {why(error)}")
+            return Trouble(f"{name_of(document)} is not saved: {files.why(error)}")
 
     def _save(
         self, document: AnyDocument, path: Path | None, agreed: frozenset[str]
@@ -592,10 +569,10 @@ class DocumentService:
         entry, file = self._entry(document), document.file.path
         if path is None and file is None:
             return Trouble(f"{name_of(document)} has no name yet. SAVE AS (Ctrl+K) gives it one.")
-        target = file if path is None else resolved_name(path, file)
+        target = file if path is None else paths.resolved_name(path, file)
         assert target is not None
         if document.kind is Kind.CONTOUR and target != file:
-            target = as_program(target)
+            target = paths.as_program(target)
         if (trouble := self._refusal(document, target)) is not None:
             return trouble
         if target != file:
@@ -605,10 +582,10 @@ class DocumentService:
 
     def _refusal(self, document: Document, target: Path) -> Trouble | None:
         """Return why a file cannot be written, whatever the operator answers; None if it can."""
-        name, holder = short_path(target), document.file.holder
+        name, holder = paths.short_path(target), document.file.holder
         if _real_path(target) is None:
             return Trouble(f"{name} is not saved: that is not a file name. Choose another.")
-        if is_folder(target):
+        if paths.is_folder(target):
             return Trouble(f"{name} is not saved: this is a folder. Type a file's name.")
         if holder is not None and target == document.file.path:
             return Trouble(f"{held_sentence(holder, self.clock())} SAVE AS (Ctrl+K) saves your own copy.")
@@ -617,13 +594,13 @@ class DocumentService:
             return Trouble(f"{printable(target.name)} is open here, too. Type another name.", open_here.latest)
         try:
             if document.kind is Kind.NC and target != document.file.path:
-                refuse_program(target)
+                files.refuse_program(target)
         except StoreError as error:
             return Trouble(error.text)
         return None
 
     def _ask_before_other(self, document: Document, target: Path) -> QuestionText | None:
-        if is_outside_folder(target, document.file.path):
+        if paths.is_outside_folder(target, document.file.path):
             return questions.write_outside(target, document.file.path, held_by(target))
         return questions.replace_file(target, held_by(target)) if os.path.lexists(target) else None
 
@@ -656,13 +633,15 @@ class DocumentService:
         """Return a question if the file differs from what was last read or saved, Trouble if it cannot be read."""
         then = document.file.stamp
         try:
-            data, status = read_file(path, MAX_BYTES[document.kind])
+            data, status = files.read_file(path, MAX_BYTES[document.kind])
         except FileNotFoundError:
             return None
         except OSError as error:
-            reason = why(error).partition(".")[0]
-            return Trouble(f"{short_path(path)} is not saved over what cannot be read: {reason}. {SAVE_ELSEWHERE}")
-        now = stamp_of_data(data, status.st_mtime_ns)
+            reason = files.why(error).partition(".")[0]
+            return Trouble(
+                f"{paths.short_path(path)} is not saved over what cannot be read: {reason}. {SAVE_ELSEWHERE}"
+            )
+        now = files.stamp_of_data(data, status.st_mtime_ns)
         if then is not None and now.same_content(then):
             return None
         written = times.in_words(times.of_file(now.changed), today)
@@ -673,14 +652,14 @@ class DocumentService:
     ) -> Saved[AnyDocument] | Trouble:
         try:
             data = document.data()
-            in_place = write_data(path, data)
+            in_place = files.write_data(path, data)
         except (StoreError, ValueError) as error:
             cause = error.__cause__ or error
-            reason = why(cause) if isinstance(cause, OSError | ValueError) else str(error)
-            return Trouble(f"{short_path(path)} is not saved: {reason} {SAVE_ELSEWHERE}")
+            reason = files.why(cause) if isinstance(cause, OSError | ValueError) else str(error)
+            return Trouble(f"{paths.short_path(path)} is not saved: {reason} {SAVE_ELSEWHERE}")
         before = document.file
         agreed = (before.link_agreed and path == before.path) or (link_agreed and _leads_elsewhere(path))
-        state = replace(before, path=path, stamp=stamp_of_data(data), link_agreed=agreed)
+        state = replace(before, path=path, stamp=files.stamp_of_data(data), link_agreed=agreed)
         saved = entry.remember(document.saved(state))
         entry.drop_journal()
         entry.rewrite = entry.failing = entry.away = False
@@ -689,7 +668,7 @@ class DocumentService:
             entry.warned = False
             saved = entry.remember(replace(saved, file=replace(state, holder=entry.take_lock(self.clock()))))
         reason = f", in place: {in_place}" if in_place else ""
-        text = f"Saved: {written_path(path)}{reason}{_unread_note(saved)}"
+        text = f"Saved: {paths.written_path(path)}{reason}{_unread_note(saved)}"
         if theirs is not None:
             text = f"{text.removesuffix('.')}. The other version is in {whole_name(theirs)}."
         return Saved(saved, Notice(text))
@@ -729,10 +708,10 @@ def put_theirs_aside(path: Path, most: int, today: str) -> Path:
     aside = free_copy_name(path, "theirs", today)
     try:
         # written in one step: no half copy may pass for the other version
-        write_data(aside, read_file(path, most)[0])
+        files.write_data(aside, files.read_file(path, most)[0])
     except (OSError, StoreError) as error:
         cause = error if isinstance(error, OSError) else error.__cause__
-        reason = why(cause) if isinstance(cause, OSError) else str(error)
+        reason = files.why(cause) if isinstance(cause, OSError) else str(error)
         raise StoreError(f"Nothing is saved: the other version cannot be copied, {reason}") from error
     return aside
 
@@ -759,7 +738,7 @@ def _readable(document: Document, data: bytes) -> bool:
 
 def _leads_elsewhere(path: Path) -> bool:
     """True if a path is a link into another folder."""
-    return path.is_symlink() and Path(os.path.realpath(path)).parent != folder(path)
+    return path.is_symlink() and Path(os.path.realpath(path)).parent != paths.folder(path)
 
 
 def _kept_for(user: str, time: str, path: Path, today: str) -> str:
@@ -776,4 +755,4 @@ def _unread_note(document: Document) -> str:
 
 
 def _reason(error: OSError | StoreError) -> str:
-    return why(error) if isinstance(error, OSError) else error.text
+    return files.why(error) if isinstance(error, OSError) else error.text

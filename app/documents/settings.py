@@ -50,10 +50,10 @@ class Settings:
         others = tuple(pair for pair in self.tools if pair[0] != name)
         return replace(self, tools=((name, text), *others)[:MAX_FILES_WITH_TOOLS])
 
-    def using(self, file: Path) -> Settings:
+    def using(self, file: Path | None) -> Settings:
         """Return the settings after a file was opened or saved; an unprintable path is not remembered."""
-        folder = str(file.absolute().parent)
-        return replace(self, folder=folder) if folder.isprintable() else self
+        folder = "" if file is None else str(file.absolute().parent)
+        return replace(self, folder=folder) if folder and folder.isprintable() else self
 
 
 def settings_file() -> Path:

@@ -20,23 +20,10 @@ from textual.worker import get_current_worker
 
 from app.documents.document import NcDocument
 from app.documents.nc_text import NcText
+from app.nc_proof import runs
 from app.nc_proof.compare_controls import CompareControls
 from app.nc_proof.listing import Listing
-from app.nc_proof.runs import (
-    RUN_SHARE,
-    RanDotted,
-    Result,
-    RunRequest,
-    first_tool,
-    header_tools,
-    judge,
-    likely_control,
-    read_tools,
-    run,
-    run_dotted,
-    tools_text,
-    with_largest_tool,
-)
+from app.nc_proof.runs import RanDotted, Result, RunRequest
 from app.screens.base import BaseScreen
 from app.screens.dialogs import ChooseLine, Phrase
 from app.session.formats import counted
@@ -116,14 +103,14 @@ class ProofScreen(BaseScreen):
         super().__init__()
         self.document = document
         text = document.text
-        control = likely_control(text, usual)
+        control = runs.likely_control(text, usual)
         folder = None if document.file.path is None else document.file.path.absolute().parent
-        self.given = read_tools(remembered)
+        self.given = runs.read_tools(remembered)
         """The tools typed for this program, now or in an earlier session."""
-        self.header = header_tools(text)
+        self.header = runs.header_tools(text)
         """The tools that the header of a program posted by cutcomp names."""
         self.request = RunRequest(text, control, self.header.with_tools(self.given), folder=folder)
-        self.tool = first_tool(text)
+        self.tool = runs.first_tool(text)
         if check_request is not None:
             tools = self.request.tools.with_tools(check_request.tools)
             self.request = RunRequest(text, check_request.control or control, tools, check_request.unit, folder)
@@ -308,13 +295,13 @@ class ProofScreen(BaseScreen):
     async def _run(self, request: RunRequest) -> None:
         with suppress(Stopped):
             with self.host.working(self._run_stopped) as work:
-                result = await to_thread(run, request, part(work, 0.0, RUN_SHARE))
+                result = await to_thread(runs.run, request, part(work, 0.0, runs.RUN_SHARE))
                 self._ran(result)
-                judged = await to_thread(judge, result, part(work, RUN_SHARE, 1.0))
+                judged = await to_thread(runs.judge, result, part(work, runs.RUN_SHARE, 1.0))
             self._ran(judged)
             self._ask_dotted()
             # the progress shown ends with the verdict
-            fitted = await to_thread(with_largest_tool, judged, while_wanted(get_current_worker()))
+            fitted = await to_thread(runs.with_largest_tool, judged, while_wanted(get_current_worker()))
             if fitted.answer.fits is not None:
                 self._ran(fitted)
 
@@ -350,7 +337,7 @@ class ProofScreen(BaseScreen):
     @work(exclusive=True, group="dotted", description="dotted")
     async def _run_dotted(self, main: Result, control: str) -> None:
         with suppress(Stopped), self.host.working(self._dotted_stopped) as work:
-            dotted = await to_thread(run_dotted, main, control, work)
+            dotted = await to_thread(runs.run_dotted, main, control, work)
             other = dotted.result
             if self.stands and main.request is self.request and control == self.dotted_control:
                 self.dotted = dotted
@@ -641,7 +628,7 @@ class ProofScreen(BaseScreen):
     def _with_tools(self, given: ToolTable, tools: ToolTable) -> None:
         self.given = given
         if (file := self.document.file.path) is not None:
-            self.host.keep_settings(self.host.settings.with_tools(file, tools_text(given)))
+            self.host.keep_settings(self.host.settings.with_tools(file, runs.tools_text(given)))
         self._run_request(replace(self.request, tools=tools))
 
     # ---- the frame

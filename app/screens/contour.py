@@ -48,20 +48,9 @@ from app.widgets.softkeys import Softkey
 from app.widgets.verdict import Case, Verdict
 from core.finding import Finding, Severity
 from core.pipeline.derived import DerivedBlock
+from core.program import edit
 from core.program import fields as table
-from core.program.edit import (
-    SEGMENT_FIELD,
-    Edited,
-    FormPlace,
-    Refused,
-    choose,
-    delete_segment,
-    insert_segment,
-    is_empty,
-    recalculate_lookahead,
-    take_solution,
-    type_field,
-)
+from core.program.edit import SEGMENT_FIELD, Edited, FormPlace, Refused
 from core.program.fields import SEGMENT_PROMPT, Field, read_typed
 from core.program.model import ArcSegment, BlendSegment, ChamferSegment, LineSegment, Number, Segment, Typed
 from core.program.solve.solved import Value
@@ -233,7 +222,7 @@ class ContourScreen(BlockActions, FormScreen):
     def _offer_letters(self, session: Session) -> None:
         """Let letters in X END and Y END change the kind of an empty LINE."""
         letters = (
-            "".join(NEW_SEGMENTS) if isinstance(session.segment, LineSegment) and is_empty(session.segment) else ""
+            "".join(NEW_SEGMENTS) if isinstance(session.segment, LineSegment) and edit.is_empty(session.segment) else ""
         )
         for name in ("x_end", "y_end"):
             if isinstance(field := self.form().field(name), NumberField):
@@ -467,11 +456,11 @@ class ContourScreen(BlockActions, FormScreen):
         """Return the program with this text in a field of the form."""
         session = self.current_session
         if field.name == "choice":
-            return take_solution(session.program, session.place, int(text.partition(" ")[0]) - 1)
+            return edit.take_solution(session.program, session.place, int(text.partition(" ")[0]) - 1)
         if field.kind is Kind.CHOICE:
-            return choose(session.program, session.place, field.name, text or None)
+            return edit.choose(session.program, session.place, field.name, text or None)
         typed = read_typed(text, field, session.program.unit)
-        return type_field(session.program, session.place, field.name, typed)
+        return edit.type_field(session.program, session.place, field.name, typed)
 
     def label(self, field: Field) -> str:
         """Return FIELD of START or of a segment, plus the run whose calculated fields the edit changes."""
@@ -499,7 +488,9 @@ class ContourScreen(BlockActions, FormScreen):
         session = self.current_session
         last = session.segment is not None and session.place.segment == len(session.block.segments)
         waits = finding.code == "MISSING" and last and not run_stops(session)
-        return f" {LATER_PROMPT}" if waits and session.segment is not None and not is_empty(session.segment) else ""
+        return (
+            f" {LATER_PROMPT}" if waits and session.segment is not None and not edit.is_empty(session.segment) else ""
+        )
 
     def _run_sentence(self, prompt: str, field: Field | None = None) -> Sentence | None:
         """Return why this segment's run has no answer, with the prompt if there is room.
@@ -542,7 +533,7 @@ class ContourScreen(BlockActions, FormScreen):
             keys = "There are no findings in this block. F10" if empty else LIST_PROMPTS[self.focused.id]
             return Sentence(f"{keys} {'makes it taller' if grows else 'closes'}.")
         segment, field = self.current_session.segment, self.current_field
-        if isinstance(segment, LineSegment) and is_empty(segment) and field is not None and field.name == "x_end":
+        if isinstance(segment, LineSegment) and edit.is_empty(segment) and field is not None and field.name == "x_end":
             widget = self.current
             if isinstance(widget, NumberField) and not widget.edited:
                 return Sentence(f"{field.prompt} Or: {KINDS_PROMPT.partition(', ')[2]}.")
@@ -676,11 +667,11 @@ class ContourScreen(BlockActions, FormScreen):
         """Change the kind of an empty segment; after any other, insert a new segment of that kind."""
         session, kind = self.current_session, NEW_SEGMENTS[message.letter]
         segment = session.segment
-        if segment is None or not is_empty(segment):
+        if segment is None or not edit.is_empty(segment):
             self._insert(session.place.segment + 1, kind())
             return
-        without = delete_segment(session.program, session.place)
-        outcome = without if isinstance(without, Refused) else insert_segment(without, session.place, kind())
+        without = edit.delete_segment(session.program, session.place)
+        outcome = without if isinstance(without, Refused) else edit.insert_segment(without, session.place, kind())
         form = table.form_of(kind())
         if self.host.apply(outcome, f"{form} {session.place.segment}, block {session.place.block}"):
             self.go(session.place.segment, table.FIELDS_OF_FORM[form][0].name)
@@ -691,7 +682,7 @@ class ContourScreen(BlockActions, FormScreen):
 
     def _insert(self, number: int, segment: Segment) -> None:
         session = self.current_session
-        if session.segment is not None and is_empty(session.segment) and number > session.place.segment:
+        if session.segment is not None and edit.is_empty(session.segment) and number > session.place.segment:
             self.say(f"Nothing is typed yet in segment {session.place.segment}: {KINDS_PROMPT}.")
             first = self.names()[1]
             # in a choice field a letter selects an option
@@ -700,7 +691,7 @@ class ContourScreen(BlockActions, FormScreen):
         place = FormPlace(session.place.block, number)
         if number == 1 and not session.block.segments:
             segment = replace(segment, feed=_last_feed(session))
-        outcome = insert_segment(session.program, place, segment)
+        outcome = edit.insert_segment(session.program, place, segment)
         form = table.form_of(segment)
         if self.host.apply(outcome, f"new {form} {number}, block {place.block}"):
             self.go(number, table.FIELDS_OF_FORM[form][0].name)
@@ -760,7 +751,7 @@ class ContourScreen(BlockActions, FormScreen):
         label = f"DELETE SEGMENT {place.segment}, block {place.block}"
         segments = self.query_one(SegmentList)
         in_list = segments.has_focus
-        if self.host.apply(delete_segment(session.program, place), label):
+        if self.host.apply(edit.delete_segment(session.program, place), label):
             self.notify(f"Deleted segment {place.segment}. Ctrl+Z brings it back.", timeout=3)
             if in_list:
                 self.call_after_refresh(self.set_focus, segments)
@@ -770,7 +761,7 @@ class ContourScreen(BlockActions, FormScreen):
         session = self.current_session
         number = session.place.block
         if not self.host.apply(
-            recalculate_lookahead(session.program, number), f"RECALCULATE LOOKAHEAD, block {number}"
+            edit.recalculate_lookahead(session.program, number), f"RECALCULATE LOOKAHEAD, block {number}"
         ):
             return
         self.say(f"CUTCOMP LOOKAHEAD is calculated: CAL {session.derived_block.lookahead.calculated}.")

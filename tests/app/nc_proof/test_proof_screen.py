@@ -412,7 +412,7 @@ async def test_stopping_the_dotted_run_leaves_the_verdict_unchanged(tmp_path, mo
                 arguments[-1](0.5)
                 sleep(0.001)
 
-        monkeypatch.setattr("app.nc_proof.screen.run_dotted", endless)
+        monkeypatch.setattr("app.nc_proof.runs.run_dotted", endless)
         monkeypatch.setattr(Work, "stoppable", True)
         await user.press("v")
         # not user.press: it would wait for the endless run
@@ -520,7 +520,7 @@ async def test_a_save_while_the_program_runs_keeps_the_run(tmp_path, monkeypatch
 
     async with at_proof(tmp_path) as user:
         await with_tool(user)
-        monkeypatch.setattr("app.nc_proof.screen.run", late)
+        monkeypatch.setattr("app.nc_proof.runs.run", late)
         await user.pilot.press("enter", "end", "(", "a", ")", "ctrl+s")
         while b"(a)" not in (tmp_path / "p.nc").read_bytes() or user.proof.document.unsaved:
             await user.pilot.pause(0.02)
