@@ -11,7 +11,6 @@ from textual import on, work
 from textual.app import App
 from textual.reactive import var
 from textual.timer import Timer
-from textual.worker import get_current_worker
 
 from app.screens.base import BaseScreen
 from app.screens.contour import ContourScreen
@@ -253,7 +252,7 @@ class DerivationActions(App[int]):
 
     @work(thread=True, group="advice", exclusive=True, description="advice")
     def _advise_in_thread(self, block: DerivedBlock, program: Program, table: Table) -> None:
-        check = while_wanted(get_current_worker())
+        check = while_wanted()
         with suppress(Stopped):
             for noted in advised(block, program, table, check):
                 check(1.0)

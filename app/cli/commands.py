@@ -107,9 +107,9 @@ def path(options: argparse.Namespace) -> int:
 
     derived = _derived(options.file, options.block, options.lookahead)
     if options.json:
-        _deliver(f"{json.dumps(path_document(derived, options.block), allow_nan=False)}\n", None)
+        deliver(f"{json.dumps(path_document(derived, options.block), allow_nan=False)}\n", None)
     else:
-        _deliver("".join(f"{line}\n" for line in path_listing(derived, options.block)), None)
+        deliver("".join(f"{line}\n" for line in path_listing(derived, options.block)), None)
         _report(derived, options.block)
     return _status(derived, options.block)
 
@@ -128,7 +128,7 @@ def lookahead(options: argparse.Namespace) -> int:
         text = json.dumps({"units": str(unit), "blocks": blocks}, allow_nan=False)
     else:
         text = "\n\n".join("\n".join(table_listing(block, table, unit)) for block, table in tables)
-    _deliver(f"{text}\n", None)
+    deliver(f"{text}\n", None)
     if not options.json:
         _report(derived, options.block)
     return _status(derived, options.block)
@@ -164,7 +164,7 @@ def post(options: argparse.Namespace) -> int:
         say("--override was not needed: nothing stood against posting.")
     for note in result.notes:
         say(f"{note.severity}: {sentence(note, derived.program.unit)}")
-    _deliver(result.text, options.output)
+    deliver(result.text, options.output)
     return _status(derived, None)
 
 
@@ -198,12 +198,13 @@ def plot(options: argparse.Namespace) -> int:
     derived = _derived(options.file)
     as_dxf = options.output is not None and options.output.suffix.lower() == ".dxf"
     text = dxf_of(derived) if as_dxf else svg_of(derived, title=_name(options.file))
-    _deliver(text, options.output)
+    deliver(text, options.output)
     _report(derived, None)
     return _status(derived, None)
 
 
-def _deliver(text: str, output: Path | None) -> None:
+def deliver(text: str, output: Path | None) -> None:
+    """Write the output of a command to a file, or to standard output for None and `-`."""
     if output is None or str(output) == STANDARD_STREAM:
         sys.stdout.write(text)
         sys.stdout.flush()

@@ -3,15 +3,14 @@
 from __future__ import annotations
 
 import argparse
-import sys
 from contextlib import suppress
 from datetime import datetime
 from pathlib import Path
 
-from app.cli.commands import STANDARD_STREAM
+from app.cli.commands import deliver
 from app.cli.shell import SHOP_HELP, STATUS_CLEAN, STATUS_FINDINGS, STATUS_UNUSABLE, Unusable, reported, say
 from app.documents import times
-from app.documents.files import load, save, write_output
+from app.documents.files import load, save
 from app.documents.lock import Owner, myself, release, take
 from app.documents.questions import held_sentence
 from app.documents.tool_tables import merged, read_table, tool_line
@@ -57,10 +56,7 @@ def sheet(options: argparse.Namespace) -> int:
 
     program = load(options.file)
     text = setup_sheet(program, options.output or Path("-"), datetime.now().astimezone(), name=options.file.stem)
-    if options.output in (None, Path(STANDARD_STREAM)):
-        sys.stdout.write(text)
-    else:
-        write_output(options.output, text)
+    deliver(text, options.output)
     return STATUS_FINDINGS if NOT_READY_TEXT in text else STATUS_CLEAN
 
 

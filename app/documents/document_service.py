@@ -279,11 +279,8 @@ class DocumentService:
         except StoreError as error:
             return Trouble(error.text)
         new = document.file.stamp is None and not os.path.lexists(path) and kept_copy is None
-        text = (
-            f"{paths.short_path(path)} does not exist yet: saving makes it."
-            if new
-            else f"Opened: {paths.short_path(path)}"
-        )
+        name = paths.short_path(path)
+        text = f"{name} does not exist yet: saving makes it." if new else f"Opened: {name}"
         return self._opened(document, Notice(text), kept_copy)
 
     def copy_without_name(self, kept_copy: Path) -> Opened[ContourDocument]:
@@ -335,10 +332,7 @@ class DocumentService:
         """
         assert file.path is not None
         wanted = None if kept_copy is None else unsaved_work.read(kept_copy, Kind.CONTOUR)
-        left = (
-            journal
-            for _, journal in unsaved_work.work_of_dead_processes(file.path, Kind.CONTOUR, self.state, self.me.user)
-        )
+        left = unsaved_work.work_of_dead_processes(file.path, self.state, self.me.user)
         journal = wanted or next(left, None)
         if journal is None:
             raise error

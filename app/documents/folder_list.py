@@ -82,7 +82,7 @@ def _read(path: Path, known: Facts | None) -> tuple[Facts, Program | None]:
     except (OSError, ValueError):
         return _without_file(path), None
     stamp = (status.st_mtime_ns, status.st_size)
-    left = [journal for _, journal in work_of_dead_processes(path, Kind.CONTOUR, state_folder(), user())]
+    left = list(work_of_dead_processes(path, state_folder(), user()))
     if known is not None and known.stamp == stamp and not left and known.outcome is not Outcome.NOT_SAVED:
         return known, None
     facts = Facts(path, stamp, datetime.fromtimestamp(status.st_mtime).astimezone())

@@ -108,13 +108,13 @@ def unsaved_work_on(file: Path | None, kind: Kind, state: Path) -> Iterator[tupl
             yield path, left
 
 
-def work_of_dead_processes(file: Path, kind: Kind, state: Path, user: str) -> Iterator[tuple[Path, Journal]]:
-    """Yield the journals on a file that this user is asked about, left by processes that died."""
-    for path, left in unsaved_work_on(file, kind, state):
+def work_of_dead_processes(file: Path, state: Path, user: str) -> Iterator[Journal]:
+    """Yield the journals on a contour program that this user is asked about, left by processes that died."""
+    for path, left in unsaved_work_on(file, Kind.CONTOUR, state):
         if isinstance(left, UnreadableWork) or alive(left.head.owner):
             continue
         if not reason_set_aside(path) or of_user(left.head.owner, path, state, user):
-            yield path, left
+            yield left
 
 
 def of_user(owner: Owner, path: Path, state: Path, user: str) -> bool:

@@ -16,7 +16,6 @@ from textual.containers import Horizontal, Vertical
 from textual.content import Content
 from textual.widgets import Label, OptionList, Static
 from textual.widgets.option_list import Option
-from textual.worker import get_current_worker
 
 from app.documents.document import NcDocument
 from app.documents.nc_text import NcText
@@ -301,7 +300,7 @@ class ProofScreen(BaseScreen):
             self._ran(judged)
             self._ask_dotted()
             # the progress shown ends with the verdict
-            fitted = await to_thread(runs.with_largest_tool, judged, while_wanted(get_current_worker()))
+            fitted = await to_thread(runs.with_largest_tool, judged, while_wanted())
             if fitted.answer.fits is not None:
                 self._ran(fitted)
 

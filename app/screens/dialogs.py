@@ -19,7 +19,7 @@ from textual.widgets.option_list import Option
 
 from app.documents.questions import GO_BACK, Answer
 from app.widgets.field import LineInput
-from app.widgets.option_rows import OptionRows
+from app.widgets.option_rows import NamedRows, OptionRows
 from app.widgets.plain import PlainLabel, PlainText
 from core.units import Kind, Unit, Unreadable, parse
 
@@ -274,18 +274,13 @@ class ChooseLine(Dialog[str]):
 
     def compose_box(self) -> ComposeResult:
         """Lay out the list."""
-        yield OptionRows(*self.options, id="answers")
+        yield NamedRows(*self.options, id="answers")
 
     def on_mount(self) -> None:
         """Put the cursor on option `here`, else on the first one."""
         ids = [option.id for option in self.options]
         if ids:
             self.query_one(OptionList).highlighted = ids.index(self.here) if self.here in ids else 0
-
-    def on_key(self, event: events.Key) -> None:
-        """Move the cursor to the next option that begins with the letters typed."""
-        if self.query_one(OptionRows).jump(event):
-            event.stop()
 
     @on(OptionList.OptionSelected)
     def _selected(self, event: OptionList.OptionSelected) -> None:

@@ -7,7 +7,7 @@ from contextlib import suppress
 from pathlib import Path
 from typing import TYPE_CHECKING, ClassVar, Final
 
-from textual import events, on, work
+from textual import on, work
 from textual.app import ComposeResult
 from textual.containers import Horizontal
 from textual.content import Content
@@ -21,7 +21,7 @@ from app.session.guide import GUIDE_COMPLETED, POST_NAME
 from app.session.messages import Sentence, Tone
 from app.session.posting import CENTER_PATH, OVERRIDE_PHRASES, PostedText, choices, nc_text, objections
 from app.session.session import Session
-from app.widgets.option_rows import OptionRows, control_rows
+from app.widgets.option_rows import NamedRows, control_rows
 from app.widgets.plain import PlainLabel, PlainText
 from app.widgets.softkeys import Softkey
 from app.widgets.status import SPACED_UNITS
@@ -68,7 +68,7 @@ class PostScreen(EntryScreen):
 
     def compose_rest(self) -> ComposeResult:
         """Yield the controls, the findings and the preview."""
-        yield OptionRows(*control_rows(choices()), id="post-controls")
+        yield NamedRows(*control_rows(choices()), id="post-controls")
         with Horizontal(id="post-answer"):
             yield PlainText(id="post-findings")
             yield PlainText(id="post-preview")
@@ -101,12 +101,6 @@ class PostScreen(EntryScreen):
     @on(Input.Changed, "#entry")
     def _name_changed(self) -> None:
         self._enter_waits = False
-
-    def on_key(self, event: events.Key) -> None:
-        """In the list of controls, letters move the cursor to the next name that begins with them."""
-        controls = self.query_one("#post-controls", OptionRows)
-        if controls.has_focus and controls.jump(event):
-            event.stop()
 
     def action_controls(self) -> None:
         """Move the cursor to the list of controls."""

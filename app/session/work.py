@@ -7,7 +7,7 @@ from dataclasses import dataclass, field
 from time import monotonic
 from typing import Final
 
-from textual.worker import Worker
+from textual.worker import get_current_worker
 
 from core.progress import Progress, Stopped
 
@@ -52,8 +52,9 @@ class Work:
         return f"working {round(100 * min(self.done, 1.0))} %{stops}"
 
 
-def while_wanted(worker: Worker[object]) -> Progress:
-    """Return a progress callback that raises Stopped once the worker is canceled."""
+def while_wanted() -> Progress:
+    """Return a progress callback that raises Stopped once the current worker is canceled."""
+    worker = get_current_worker()
 
     def check(_: float) -> None:
         if worker.is_cancelled:

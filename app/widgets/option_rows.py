@@ -57,7 +57,6 @@ class OptionRows(OptionList):
 
     def __init__(self, *options: Option | None, id: str | None = None, classes: str | None = None) -> None:
         super().__init__(*options, id=id, classes=classes, compact=True, markup=False)
-        self._typed = TypedLetters()
 
     def render_line(self, y: int) -> Strip:
         """Return a line; while the list has the focus, the cursor line has the cursor's look."""
@@ -75,14 +74,6 @@ class OptionRows(OptionList):
             Segment(text, style + ink if style and style.bgcolor == cursor.bgcolor else style, control)
             for text, style, control in strip
         )
-
-    def jump(self, event: events.Key) -> bool:
-        """Move the cursor to the next option whose text or id begins with the letters typed; False for another key."""
-        names = [(str(option.prompt).strip().lower(), option.id or "") for option in self.options]
-        row = self._typed.row(event, names, self.highlighted or 0)
-        if row is not None and names:
-            self.highlighted = row
-        return row is not None
 
     def action_cursor_up(self) -> None:
         """Go up a line, but not from the first one to the last."""
@@ -103,6 +94,22 @@ class OptionRows(OptionList):
         """Go down a page, if the list has room."""
         if self.scrollable_content_region:
             super().action_page_down()  # type: ignore[no-untyped-call]  # as above
+
+
+class NamedRows(OptionRows):
+    """A list in which letters and digits move the cursor to the next option whose text or id begins with them."""
+
+    def __init__(self, *options: Option, id: str) -> None:
+        super().__init__(*options, id=id)
+        self._typed = TypedLetters()
+
+    def on_key(self, event: events.Key) -> None:
+        """Go to the next option that begins with the letters typed."""
+        names = [(str(option.prompt).strip().lower(), option.id or "") for option in self.options]
+        row = self._typed.row(event, names, self.highlighted or 0)
+        if row is not None and names:
+            event.stop()
+            self.highlighted = row
 
 
 def control_rows(choices: Sequence[ControlChoice]) -> list[Option]:
