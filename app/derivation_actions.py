@@ -14,10 +14,9 @@ from textual.timer import Timer
 
 from app.screens.base import BaseScreen
 from app.screens.contour import ContourScreen
-from app.session.derivation import advised, derived, lookahead_table
 from app.session.messages import TableNotesAdded, TableRowsJudged, Tone
 from app.session.session import Session
-from app.session.work import SECONDS_BEFORE_PROGRESS, Work, while_wanted
+from app.session.work import SECONDS_BEFORE_PROGRESS, Work, advised, derived, lookahead_table, while_wanted
 from core.pipeline.derived import DerivedBlock
 from core.program.model import Program
 from core.progress import Stopped

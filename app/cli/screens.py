@@ -38,9 +38,9 @@ def run(
 
     `check_request` holds the control, the tools and the unit of an NC file.
     """
-    from app.terminal import driver
+    from app.terminal.capabilities import refusal
 
-    if reason := "" if in_browser() else driver.refusal(os.environ):
+    if reason := "" if in_browser() else refusal(os.environ):
         say(reason)
         return STATUS_UNUSABLE
     if path is not None and check_request is None and is_folder(path):
@@ -114,10 +114,10 @@ def make_app(
     """Return the App on a document, set up for the terminal and with the settings of last time."""
     from app.app import CutcompApp
     from app.file_actions import session_of
-    from app.terminal import capabilities, driver, key_sequences
+    from app.terminal import capabilities, driver
 
     browser = in_browser()
-    key_sequences.teach()
+    driver.teach()
     if not browser and capabilities.monochrome(os.environ):
         os.environ["NO_COLOR"] = "1"
     settings, trouble = load_settings(settings_file())
@@ -125,7 +125,7 @@ def make_app(
         opened = replace(opened, notice=Notice(trouble, warning=True))
     environment = capabilities.operators_environment(os.environ)
     name, character_sets = (
-        ("", driver.CHARACTER_SETS) if browser else driver.characters(environment, options.characters)
+        ("", capabilities.CHARACTER_SETS) if browser else capabilities.characters(environment, options.characters)
     )
     if settings.characters in character_sets and not options.characters:
         character_sets = (settings.characters, *(each for each in character_sets if each != settings.characters))
@@ -133,7 +133,7 @@ def make_app(
     app = CutcompApp(
         session_of(program),
         character_sets=character_sets,
-        few_colors=not browser and driver.few_colors(os.environ),
+        few_colors=not browser and capabilities.few_colors(os.environ),
         light=options.light or settings.theme == "light",
         service=service,
         opened=opened,

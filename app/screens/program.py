@@ -15,10 +15,10 @@ from textual.widgets import DataTable, Label, OptionList
 from app.documents.folder_list import outcome_of
 from app.screens.block_actions import COPY_AND_MOVE, BlockActions
 from app.session.block_findings import block_findings
-from app.session.derivation import times_in_words
 from app.session.formats import counted
 from app.session.guide import on_program
 from app.session.session import Session
+from app.session.work import times_in_words
 from app.widgets.block_summary import BlockSummary
 from app.widgets.drawing import Drawing
 from app.widgets.findings_list import FindingsList

@@ -1,4 +1,4 @@
-"""This module finds what the terminal can show: its character set by the locale, its colors by its name.
+"""This module finds what the terminal can show: its character set by the locale, its colors by its name, or nothing.
 
 A program cannot ask a terminal what it takes.  Python turns the C locale into UTF-8 and writes that into its own
 environment as LC_CTYPE, so the operator's own locale is read here.  If that does not name UTF-8, characters outside
@@ -30,6 +30,10 @@ LOOKALIKES: Final = str.maketrans("│┃─━├┤▀▄█…→↗↑↖←
 LOOKALIKE_ERRORS: Final = "cutcomp.lookalike"
 FIRST_FRAME, LAST_FRAME, LAST_BLOCK = "\u2500", "\u257f", "\u259f"
 FIRST_BRAILLE, LAST_BRAILLE = "\u2801", "\u28ff"
+CHARACTER_SETS: Final = ("braille", "block", "ascii")
+"""The character sets that a drawing can be made of."""
+UNFIT_TERMS: Final = ("dumb", "unknown", "")
+"""Values of TERM for terminals that cannot position the cursor."""
 COLORED: Final = re.compile(
     r"(?:xterm|screen|tmux|linux|putty|rxvt|vte|konsole|gnome|alacritty|foot|kitty)\b|.*colou?r"
 )
@@ -121,6 +125,23 @@ def ascii_only(environment: Mapping[str, str]) -> bool:
     return OLD.match(environment.get("TERM", "")) is not None
 
 
+def characters(environment: Mapping[str, str], wanted: str = "") -> tuple[str, tuple[str, ...]]:
+    """Return the character set to write, and the sets that drawings can use, the one to begin with first.
+
+    `wanted` is the operator's choice, which overrides the environment.  The fonts of the Linux console have no
+    braille; a VT100 has no UTF-8 at all.
+    """
+    name = UTF_8 if wanted in CHARACTER_SETS[:-1] else charset(environment)
+    if wanted not in CHARACTER_SETS[:-1] and name == UTF_8 and ascii_only(environment):
+        name = ASCII
+    if name != UTF_8:
+        return name, CHARACTER_SETS[-1:]
+    console = environment.get("TERM", "").startswith("linux") and wanted != CHARACTER_SETS[0]
+    able = CHARACTER_SETS[1:] if console else CHARACTER_SETS
+    first = able.index(wanted) if wanted else 0
+    return name, (*able[first:], *able[:first])
+
+
 # ---- colors
 
 
@@ -149,3 +170,30 @@ def monochrome(environment: Mapping[str, str], table: Callable[[str], int | None
         return False
     known = table(name)
     return bare if known is None else known < 2
+
+
+def few_colors(environment: Mapping[str, str]) -> bool:
+    """True if only the terminal's own sixteen colors are used, or none; by default TERM and COLORTERM decide.
+
+    Without colors, the terminal's own text color and background stay; bold, underline and reverse video do the rest.
+    """
+    asked = environment.get("TEXTUAL_COLOR_SYSTEM", "auto").lower()
+    if "NO_COLOR" in environment or asked != "auto":
+        return "NO_COLOR" in environment or asked == "standard"
+    true_color = environment.get("COLORTERM", "") in ("truecolor", "24bit")
+    return not true_color and not any(word in environment.get("TERM", "") for word in ("256color", "direct", "kitty"))
+
+
+def refusal(environment: Mapping[str, str]) -> str:
+    """Return why the screens cannot run here; empty if they can."""
+    if not all(stream is not None and stream.isatty() for stream in (sys.__stdin__, sys.__stderr__)):
+        return (
+            "the screens need a terminal, and here is none. Start it in a terminal window, or see the commands "
+            "without a screen: cutcomp --help"
+        )
+    if environment.get("TERM", "") in UNFIT_TERMS:
+        return (
+            f"the terminal says TERM={environment.get('TERM', '')}, which cannot place a cursor. Set TERM to what it "
+            "is, such as TERM=xterm or TERM=vt100, and start again."
+        )
+    return ""

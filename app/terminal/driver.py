@@ -1,6 +1,7 @@
-"""TerminalDriver connects Textual to the terminal; this module also decides which terminals can show the screens.
+"""TerminalDriver connects Textual to the terminal; `teach` adds key sequences that Textual does not know.
 
-Textual's own driver fails at the first byte that is not UTF-8, and reads forever from a link that has dropped.
+Textual's own driver fails at the first byte that is not UTF-8, and reads forever from a link that has dropped.  It has
+no public way to add a sequence, so `teach` writes into its table; a test types every sequence into a pseudo-terminal.
 """
 
 from __future__ import annotations
@@ -10,18 +11,20 @@ import select
 import signal
 import sys
 from codecs import getincrementaldecoder, lookup
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator
+from enum import StrEnum
 from time import monotonic
 from types import FrameType
-from typing import TYPE_CHECKING, Any, Final
+from typing import TYPE_CHECKING, Any, Final, cast
 
 from textual import events
 from textual._ansi_sequences import ANSI_SEQUENCES_KEYS
 from textual._xterm_parser import XTermParser
 from textual.drivers.linux_driver import LinuxDriver
+from textual.keys import Keys
 from textual.message import Message
 
-from app.terminal.capabilities import ASCII, UTF_8, ascii_only, charset
+from app.terminal.capabilities import ASCII, UTF_8
 from app.terminal.cell_diff import TerminalCells
 from app.terminal.key_order import KeyOrder
 from app.terminal.split_keys import KEY_WARNINGS, Joined, delay
@@ -29,12 +32,9 @@ from app.terminal.split_keys import KEY_WARNINGS, Joined, delay
 if TYPE_CHECKING:
     from textual.app import App
 
-CHARACTER_SETS: Final = ("braille", "block", "ascii")
 CHECK_SECONDS: Final = 0.1
 """Seconds between two checks for the end of the program."""
 MAX_READ_BYTES: Final = 4096
-UNFIT_TERMS: Final = ("dumb", "unknown", "")
-"""Values of TERM for terminals that cannot position the cursor."""
 ERASING_TERMS: Final = (
     "xterm",
     "putty",
@@ -49,8 +49,36 @@ ERASING_TERMS: Final = (
     "gnome",
 )
 """How TERM begins if erased cells take the color in force; other terminals use their own background."""
+SOFTKEYS: Final = (Keys.F1, Keys.F2, Keys.F3, Keys.F4, Keys.F5, Keys.F6, Keys.F7, Keys.F8)
+VT100_PLUS: Final = "PQRSTUVW"
+"""PuTTY in VT100+ mode sends ESC O and these letters for F1 to F8; Textual knows the first four."""
+
+SCO_KEYS: Final = {
+    "N": Keys.F2,
+    "P": Keys.F4,
+    "Q": Keys.F5,
+    "R": Keys.F6,
+    "S": Keys.F7,
+    "T": Keys.F8,
+    "G": Keys.PageDown,
+}
+"""PuTTY in SCO mode sends ESC [ and these letters.  Its F1 begins like a mouse click, and its F3 is what other
+terminals send when their window loses the focus: for these two the operator types Esc and the digit."""
 PLAIN_TERMS: Final = ("linux", "vt1", "vt2")
 """How TERM begins if the terminal may show a control sequence with a $ in it."""
+
+
+class AtOnce(StrEnum):
+    """Esc and a digit in one packet, named as Textual names Alt and the digit from terminals with a newer protocol."""
+
+    ALT_1 = "alt+1"
+    ALT_2 = "alt+2"
+    ALT_3 = "alt+3"
+    ALT_4 = "alt+4"
+    ALT_5 = "alt+5"
+    ALT_6 = "alt+6"
+    ALT_7 = "alt+7"
+    ALT_8 = "alt+8"
 
 
 class TerminalDriver(LinuxDriver):
@@ -203,45 +231,14 @@ def read_input(handle: int) -> bytes:
         return b""
 
 
-def few_colors(environment: Mapping[str, str]) -> bool:
-    """True if only the terminal's own sixteen colors are used, or none; by default TERM and COLORTERM decide.
-
-    Without colors, the terminal's own text color and background stay; bold, underline and reverse video do the rest.
-    """
-    asked = environment.get("TEXTUAL_COLOR_SYSTEM", "auto").lower()
-    if "NO_COLOR" in environment or asked != "auto":
-        return "NO_COLOR" in environment or asked == "standard"
-    true_color = environment.get("COLORTERM", "") in ("truecolor", "24bit")
-    return not true_color and not any(word in environment.get("TERM", "") for word in ("256color", "direct", "kitty"))
-
-
-def refusal(environment: Mapping[str, str]) -> str:
-    """Return why the screens cannot run here; empty if they can."""
-    if not all(stream is not None and stream.isatty() for stream in (sys.__stdin__, sys.__stderr__)):
-        return (
-            "the screens need a terminal, and here is none. Start it in a terminal window, or see the commands "
-            "without a screen: cutcomp --help"
-        )
-    if environment.get("TERM", "") in UNFIT_TERMS:
-        return (
-            f"the terminal says TERM={environment.get('TERM', '')}, which cannot place a cursor. Set TERM to what it "
-            "is, such as TERM=xterm or TERM=vt100, and start again."
-        )
-    return ""
-
-
-def characters(environment: Mapping[str, str], wanted: str = "") -> tuple[str, tuple[str, ...]]:
-    """Return the character set to write, and the sets that drawings can use, the one to begin with first.
-
-    `wanted` is the operator's choice, which overrides the environment.  The fonts of the Linux console have no
-    braille; a VT100 has no UTF-8 at all.
-    """
-    name = UTF_8 if wanted in CHARACTER_SETS[:-1] else charset(environment)
-    if wanted not in CHARACTER_SETS[:-1] and name == UTF_8 and ascii_only(environment):
-        name = ASCII
-    if name != UTF_8:
-        return name, CHARACTER_SETS[-1:]
-    console = environment.get("TERM", "").startswith("linux") and wanted != CHARACTER_SETS[0]
-    able = CHARACTER_SETS[1:] if console else CHARACTER_SETS
-    first = able.index(wanted) if wanted else 0
-    return name, (*able[first:], *able[:first])
+def teach() -> None:
+    """Add the sequences to Textual's table."""
+    table = cast("dict[str, tuple[StrEnum | Keys, ...]]", ANSI_SEQUENCES_KEYS)
+    for number, both in enumerate(AtOnce, 1):
+        table[f"\x1b{number}"] = (both,)
+    for key, letter in zip(SOFTKEYS, VT100_PLUS, strict=True):
+        table[f"\x1bO{letter}"] = (key,)
+    for letter, key in SCO_KEYS.items():
+        table[f"\x1b[{letter}"] = (key,)
+    # this is how Enter arrives if it was pressed before the screens had the terminal
+    table["\n"] = (Keys.Enter,)

@@ -12,8 +12,7 @@ from textual.geometry import Region
 from app.app import CutcompApp
 from app.documents.lock import take
 from app.documents.programs import example
-from app.terminal.capabilities import ascii_only, monochrome
-from app.terminal.driver import characters
+from app.terminal.capabilities import ascii_only, characters, monochrome
 from app.widgets.field import LineInput
 from app.widgets.option_rows import OptionRows
 from tests.app.documents.typist import ELSEWHERE

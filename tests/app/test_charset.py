@@ -7,8 +7,7 @@ from itertools import product
 
 import pytest
 
-from app.terminal.capabilities import charset, lookalike, set_charset
-from app.terminal.driver import characters
+from app.terminal.capabilities import characters, charset, lookalike, set_charset
 from core.draw.characters import CELLS_OF_MODE, Mode
 
 BRAILLE_FIRST, BLOCK_FIRST = ("braille", "block", "ascii"), ("block", "ascii")

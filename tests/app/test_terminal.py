@@ -10,7 +10,7 @@ from pathlib import Path
 import pytest
 
 from app.documents.programs import example
-from app.terminal.key_sequences import VT100_PLUS
+from app.terminal.driver import VT100_PLUS
 from tests.terminal import Terminal, cutcomp, running
 
 ROOT = Path(__file__).parents[2]

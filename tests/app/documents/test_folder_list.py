@@ -98,7 +98,7 @@ def test_opening_a_hanging_file_is_reported(state: Path, part: Path, monkeypatch
 
     never = Event()
     monkeypatch.setattr(module, "FILE_SECONDS", 0.05)
-    monkeypatch.setattr(module.files, "read_file", lambda *_: never.wait(5))
+    monkeypatch.setattr("app.documents.files.read_file", lambda *_: never.wait(5))
     opened = service(state).open(part)
     never.set()
     assert isinstance(opened, Trouble)

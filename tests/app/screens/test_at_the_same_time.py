@@ -7,7 +7,7 @@ from asyncio import sleep
 from typing import Any
 
 import app.derivation_actions as owner
-from app.session.derivation import derived
+from app.session.work import derived
 from tests.app.widget_pilot import operator
 
 

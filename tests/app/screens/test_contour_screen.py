@@ -15,8 +15,7 @@ from app.screens.dialogs import Question
 from app.screens.lookahead import LookaheadScreen
 from app.screens.palette import Palette
 from app.session.block_findings import block_findings
-from app.session.derivation import derived
-from app.session.work import Work
+from app.session.work import Work, derived
 from app.widgets.field import ChoiceField
 from app.widgets.findings_list import FindingsList
 from app.widgets.verdict import Verdict

@@ -6,7 +6,7 @@ from dataclasses import replace
 
 from app.documents.files import load
 from app.documents.programs import example
-from app.session.derivation import times_in_words
+from app.session.work import times_in_words
 from core.pipeline.derive import derive
 
 

@@ -6,7 +6,7 @@ import pytest
 from rich.color import Color, ColorSystem
 from textual.theme import Theme
 
-from app.terminal.driver import few_colors
+from app.terminal.capabilities import few_colors
 from app.theme import themes
 
 
