@@ -52,6 +52,9 @@ class TransformActions(FileActions):
     async def _block(
         self, title: str, line: str, entries: Sequence[NumberEntry], motion_of: Callable[..., transform.Motion]
     ) -> None:
+        # taken later, a number would go into the transformed shape
+        if not self.take_typed():
+            return
         rest = self.session.without_empty()
         program, number = rest.program, rest.place.block
         edited = await self._edited(
@@ -96,6 +99,9 @@ class TransformActions(FileActions):
     async def _repeat(
         self, title: str, entries: Sequence[NumberEntry], motion_of: Callable[..., transform.Motion]
     ) -> None:
+        # taken later, a number would go into the transformed shape
+        if not self.take_typed():
+            return
         rest = self.session.without_empty()
         program, place = rest.program, rest.place
 

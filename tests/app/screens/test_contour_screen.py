@@ -186,6 +186,34 @@ async def test_a_half_typed_number_is_taken_before_its_block_is_copied(user: Ope
     assert "2x cannot be read" in user.prompt
 
 
+@pytest.mark.parametrize("action", ["shift_block", "repeat_shifted"])
+async def test_a_half_typed_number_is_taken_before_a_block_is_transformed(user: Operator, action: str):
+    await user.begin("pocket", 0, "x_start")
+    await user.press("'2", "'.", "'5")
+    await user.app.run_action(f"app.{action}")
+    await user.settle()
+    assert user.session.block.x_start == Number(2.5)
+    await user.press("escape", "ctrl+z")
+    assert user.session.block.x_start == Number(2.0)
+    await user.begin("pocket", 0, "x_start")
+    await user.press("'2", "'x")
+    await user.app.run_action(f"app.{action}")
+    await user.settle()
+    assert isinstance(user.screen, ContourScreen)
+    assert "2x cannot be read" in user.prompt
+
+
+async def test_a_half_typed_number_moves_with_its_block(user: Operator):
+    await user.begin("pocket", 0, "x_start")
+    await user.press("'2", "'.", "'5")
+    await user.app.run_action("app.shift_block")
+    await user.settle()
+    await user.press("backspace", "'1", "'0", "enter", "'0", "enter")
+    assert user.session.block.x_start == Number(12.5)
+    await user.press("enter")
+    assert user.session.block.x_start == Number(12.5)
+
+
 async def test_a_new_block_keeps_tool_feeds_and_depths(user: Operator):
     await user.press("f8")
     assert type(user.screen).__name__ == "ProgramScreen"
