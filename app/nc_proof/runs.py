@@ -114,7 +114,7 @@ def _result(request: RunRequest, proof: Proof, *, judged: bool) -> Result:
     from core.pipeline.checking import answered
     from core.pipeline.nc_proof import fixed_scene
 
-    answer = answered(proof.run, proof.results, request.text.data)
+    answer = answered(proof.run, proof.results, request.text.data, request.tools)
     return Result(request, answer, proof, fixed_scene(proof), judged)
 
 

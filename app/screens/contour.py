@@ -470,7 +470,10 @@ class ContourScreen(BlockActions, FormScreen):
         return f"{field.label} of {where}, block {place.block}"
 
     def trouble(self, field: Field) -> Sentence | None:
-        """Return an error about this field, advice on it, or why the run has no answer; the verdict has the rest."""
+        """Return an error about this field, a doubt about the tool's size, advice, or why the run has no answer.
+
+        The verdict has the rest.
+        """
         session = self.current_session
         for finding in session.derived_block.findings:
             here = finding.field == field.name and int(finding.segment or 0) == session.place.segment
@@ -480,6 +483,9 @@ class ContourScreen(BlockActions, FormScreen):
                 if not to_type:
                     return Sentence(text, Tone.ERROR)
                 return Sentence(self._with_prompt(text, field) or text, Tone.WARNING)
+            if here and finding.code == "TOOL_SIZE":
+                # a number in the wrong unit is to be seen where the tool is called
+                return Sentence(sentence(finding, session.program.unit), Tone.WARNING)
         advice = "" if self.on_segment else remedy(session.lookahead_table, field.name, session.program.unit)
         return Sentence(advice, Tone.WARNING) if advice else self._run_sentence(self.prompt_of(field), field)
 

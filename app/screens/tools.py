@@ -24,7 +24,8 @@ from core.program.edit import Edited, Refused, delete_tool, set_tool
 from core.program.fields import TOOL, Field, Form, field_of, read_typed
 from core.program.model import Coolant, Number, Program, Tool, Typed
 from core.program.solve.solved import Value
-from core.units import Kind, Unit
+from core.program.tools import unusual_size
+from core.units import Kind, Unit, sentence, to_mm
 
 NAME_SEPARATOR: Final = "@"
 """Separates the field's name from the tool's row in the name of a widget."""
@@ -332,10 +333,15 @@ def _renumbered(program: Program, tool: Tool, typed: Typed) -> Edited:
 
 
 def _faults(tool: Tool, unit: Unit) -> list[str]:
-    """Return an ERR line for each field of a tool that cannot be used."""
+    """Return an ERR line for each field of a tool that cannot be used, and a doubt about its diameter."""
     reasons = [(field.label, unusable(_value(tool, field.name), field, unit)) for field in TOOL]
     texts = [text if text.startswith(label) else f"{label}: {text}" for label, text in reasons if text]
-    return [f"ERR tool {tool.number} {text}" for text in texts]
+    typed = tool.diameter
+    doubt = unusual_size(f"Tool {tool.number}", to_mm(typed.value, unit), unit) if isinstance(typed, Number) else None
+    return [
+        *(f"ERR tool {tool.number} {text}" for text in texts),
+        *([] if doubt is None else [f"WARNING: {sentence(doubt, unit)}"]),
+    ]
 
 
 def _uses(program: Program, number: int) -> list[str]:

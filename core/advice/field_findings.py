@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
+from dataclasses import replace
 from typing import Final
 
 from core.finding import Finding, Severity
@@ -10,7 +11,7 @@ from core.program.fields import Form, default_value, field_of
 from core.program.model import Block, CutterComp, Number, Program, Typed, Unread
 from core.program.solve.reading import usable
 from core.program.solve.solved import Origin, Solved, SolvedBlock
-from core.program.tools import called_tool
+from core.program.tools import called_tool, unusual_size
 from core.tolerance import JOINED, LAST_PASS, ON_PATH
 from core.units import Kind, from_mm, length_text, show, to_mm
 
@@ -24,6 +25,7 @@ def field_findings(block: Block, solved: SolvedBlock, program: Program) -> Itera
     """Yield what may surprise the operator about a block's fields and the program's parameters and setup."""
     yield from _z_ends(solved)
     yield from _safe_z(solved, program)
+    yield from _tool_sizes(block, solved, program)
     yield from _without_partner(block, solved)
     yield from _blank_feeds(block, solved, program)
     yield from _allowances_without_finish_tool(block, program)
@@ -73,6 +75,20 @@ def _safe_z(solved: SolvedBlock, program: Program) -> Iterator[Finding]:
     severity = Severity.INFO if typed is None else Severity.WARNING
     lengths = (clear, clearance, solved.z_start)
     yield Finding("SAFE_Z", severity, f"{text}Enter SAFE Z on PART SETUP.", field="safe_z", value=safe, lengths=lengths)
+
+
+def _tool_sizes(block: Block, solved: SolvedBlock, program: Program) -> Iterator[Finding]:
+    """Warn about tools whose diameter may be in the other unit."""
+    top, bottom = solved.z_start, solved.z_bottom
+    depth = 0.0 if top is None or bottom is None else top - bottom
+    for name in ("tool", "finish_tool"):
+        called = called_tool(program, getattr(block, name), name)
+        if called.tool is None or called.diameter is None:
+            continue
+        finding = unusual_size(f"Tool {called.tool.number}", called.diameter, program.unit, depth)
+        if finding is not None:
+            text = f"{finding.text} F6 is TOOL SETUP."
+            yield replace(finding, text=text, segment=0, field=name)
 
 
 def _without_partner(block: Block, solved: SolvedBlock) -> Iterator[Finding]:

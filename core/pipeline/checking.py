@@ -24,6 +24,7 @@ from core.controls.moves import Move, Moves
 from core.controls.registry import UnknownControl, reads, run
 from core.finding import Finding, Severity
 from core.pipeline.fitting_tool import largest_tool
+from core.program.tools import unusual_size
 from core.progress import Progress, silent
 from core.units import Unit, from_mm, length_text, sentence
 
@@ -162,15 +163,22 @@ def answer(text: bytes, request: CheckRequest) -> Answer:
     """Return one control's answer."""
     done = run(text, request.control, request.tools, request.unit, request.library)
     assert not isinstance(done, UnknownControl), done.text
-    return _complete(
-        _answer(done, judge_run(done), _foreign(done.control, text), shop=request.shop), done, text, request
-    )
+    before = (*unusual_tools(request.tools, done.unit), *_foreign(done.control, text))
+    return _complete(_answer(done, judge_run(done), before, shop=request.shop), done, text, request)
 
 
 def _complete(row: Answer, done: ControlRun, text: bytes, request: CheckRequest) -> Answer:
     """Return the answer with the largest tool that fits, and with the option that gives a tool its size if request."""
     row = with_largest_tool(row, done, text, request)
     return _with_remedy(row, tool_option) if request.names_options else row
+
+
+def unusual_tools(tools: ToolTable, unit: Unit) -> tuple[Finding, ...]:
+    """Return a warning on each tool whose diameter may be in the wrong unit, for a program in `unit`."""
+    named = ((number, tool.diameter_mm(unit)) for number, tool in tools.tools.items())
+    doubts = ((number, unusual_size(f"Tool {number}", diameter, unit)) for number, diameter in named)
+    # braces in a Klartext tool's name would be taken for placeholders of lengths
+    return tuple(finding for number, finding in doubts if finding is not None and "{" not in str(number))
 
 
 def with_largest_tool(
@@ -225,9 +233,10 @@ def _tool_key(tool: ToolId) -> str:
     return f"T gives tool {tool} its diameter."
 
 
-def answered(done: ControlRun, results: tuple[JudgedContour, ...], text: bytes) -> Answer:
+def answered(done: ControlRun, results: tuple[JudgedContour, ...], text: bytes, tools: ToolTable) -> Answer:
     """Return the answer of a control that has run a text, with the key that gives a tool its size if it needs one."""
-    return _with_remedy(_answer(done, results, _foreign(done.control, text), shop=False), _tool_key)
+    before = (*unusual_tools(tools, done.unit), *_foreign(done.control, text))
+    return _with_remedy(_answer(done, results, before, shop=False), _tool_key)
 
 
 def answer_all(
@@ -251,7 +260,12 @@ def _compared(row: Compared | OtherLanguage, request: CheckRequest, text: bytes)
         return Answer(row.control, Unit.MM, None, findings, None, outcome, comparison=comparison, state=state)
     comparison = _parting(row.parting, row.reference, row.run.unit) if row.parting else ""
     if not row.contour_of:
-        answer_row = _complete(_answer(row.run, row.results, (), shop=request.shop), row.run, text, request)
+        answer_row = _complete(
+            _answer(row.run, row.results, unusual_tools(request.tools, row.run.unit), shop=request.shop),
+            row.run,
+            text,
+            request,
+        )
     else:
         reader = display_name(row.contour_of)
         message = f"The program is in another control's language: only its contour was run, as {reader} reads it, with "

@@ -9,6 +9,7 @@ from __future__ import annotations
 import re
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
+from fractions import Fraction
 from math import isfinite
 from typing import Final
 
@@ -59,6 +60,37 @@ def called_tool(program: Program, typed: Typed, name: str, severity: Severity = 
         return CalledTool(tool, to_mm(tool.diameter.value, program.unit))
     text = f"Tool {tool.number}: {trouble}"
     return CalledTool(tool, None, (Finding("TOOL_DIAMETER", severity, text, 0, name),))
+
+
+LARGEST_USUAL_DIAMETER: Final = {Unit.IN: 508.0, Unit.MM: 500.0}
+"""Millimeters: hardly a cutter is larger than 20 in or 500 mm."""
+INCH_STEPS: Final = 64
+"""Steps of an inch in which inch cutters are made."""
+MAX_DEPTH_IN_DIAMETERS: Final = 10.0
+"""A cutter seldom goes deeper than this many times its diameter."""
+
+
+def unusual_size(tool: str, diameter: float, unit: Unit, depth: float = 0.0) -> Finding | None:
+    """Return the warning that a diameter (mm) may be in the wrong unit for a program in `unit`; None if it is usual.
+
+    `tool` is how the sentence begins, `depth` how deep it cuts (mm).  A diameter below 1 mm counts as typed in inches
+    if it is a usual inch size and either no usual one in millimeters, as .375, or far too thin for the depth.
+    """
+    text = ""
+    if abs(diameter) > LARGEST_USUAL_DIAMETER[unit]:
+        text = f"{tool} is {{value}} across, more than any usual cutter. Is its unit right?"
+    elif unit is Unit.MM and _is_inch_size(diameter, depth):
+        text = f"{tool} is {{value}} across. Was {Fraction(diameter)} in meant?"
+    meant = f"The program is in {'INCH' if unit is Unit.IN else 'MM'}."
+    return Finding("TOOL_SIZE", Severity.WARNING, f"{text} {meant}", value=diameter) if text else None
+
+
+def _is_inch_size(diameter: float, depth: float) -> bool:
+    """True if a diameter in millimeters looks as if it was typed in inches, for a cut of this depth."""
+    if not 0.0 < diameter < 1.0 or not (diameter * INCH_STEPS).is_integer():
+        return False
+    usual_too = (diameter * 4.0).is_integer()
+    return not usual_too or depth > MAX_DEPTH_IN_DIAMETERS * diameter
 
 
 TOOL_TABLE: Final = "TOOLTABLE"

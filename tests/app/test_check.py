@@ -485,3 +485,15 @@ def test_a_subprogram_that_cannot_be_called_is_reported_at_its_call(
     assert finding["text"].startswith(message)
     assert finding["line"] == result["stopped_at"] == 2
     assert finding["column"] == (1 if "bad" in call else call.index("call") + 1)
+
+
+def test_a_tool_of_an_unusual_size_is_a_warning(capsys: pytest.CaptureFixture[str], tmp_path: Path) -> None:
+    file = tmp_path / "part.nc"
+    file.write_text("G20 G90\nT1 M6\nG0 X0 Y0 Z1\nG1 Z0 F5\nG1 X9\nG0 Z1\nM30\n")
+    _, out, _ = output(capsys, file, "--control", "linuxcnc", "--tool", "1=2400")
+    assert "Tool 1 is 2400.0000 across, more than any usual cutter. Is its unit right? The program is in INCH." in out
+    assert "1 warning (TOOL_SIZE)" in out
+    _, out, _ = output(capsys, file, "--control", "linuxcnc", "--tool", "1=.5")
+    assert "TOOL_SIZE" not in out
+    _, out, _ = output(capsys, file, "--control", "all", "--tool", "1=2400")
+    assert "TOOL_SIZE" in out

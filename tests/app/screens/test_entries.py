@@ -182,3 +182,16 @@ async def test_a_unit_left_by_a_click_stays(user: Operator):
     await user.pilot.click(user.row("finish_xy"), offset=(20, 0))
     await user.settle()
     assert (user.at, user.value("unit"), user.prompt) == ("finish_xy", "IN", "UNITS stays IN.")
+
+
+async def test_a_tool_that_may_be_in_the_other_unit_is_a_warning_where_it_is_typed_and_called(user: Operator):
+    await user.begin("pocket")
+    await user.press("f6", "tab", "tab", *(f"'{sign}" for sign in "2400"), "enter")
+    await user.finish()
+    text = "Tool 1 is 2400.0000 across, more than any usual cutter. Is its unit right? The program is in INCH."
+    assert f"WARNING: {text}" in str(user.screen.query_one("#tool-use", Static).content)
+    await user.press("f8")
+    await user.begin(user.session.program)
+    await user.press("tab", "tab", "shift+tab")
+    await user.finish()
+    assert user.prompt == f"{text} F6 is TOOL SETUP."

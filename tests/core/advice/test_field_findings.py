@@ -374,3 +374,30 @@ def test_a_number_without_effect_is_reported(typed, texts):
     found = findings_of(part, "NO_PARTNER")
     assert [text for _, text in found] == texts
     assert all((finding.severity, finding.segment) == (Severity.WARNING, 1) for finding, _ in found)
+
+
+@pytest.mark.parametrize(
+    ("unit", "diameter", "bottom", "words"),
+    [
+        (Unit.IN, 2400.0, -0.25, "Tool 1 is 2400.0000 across, more than any usual cutter. Is its unit right?"),
+        (Unit.IN, 20.0, -0.25, ""),
+        (Unit.MM, 24000.0, -5.0, "Tool 1 is 24000.000 across, more than any usual cutter. Is its unit right?"),
+        (Unit.MM, 500.0, -5.0, ""),
+        (Unit.MM, 0.375, -1.0, "Tool 1 is 0.375 across. Was 3/8 in meant?"),
+        (Unit.MM, 0.5, -6.0, "Tool 1 is 0.500 across. Was 1/2 in meant?"),
+        (Unit.MM, 0.5, -1.0, ""),
+        (Unit.MM, 0.4, -6.0, ""),
+        (Unit.MM, 10.0, -6.0, ""),
+        (Unit.IN, 0.375, -6.0, ""),
+    ],
+)
+@pytest.mark.parametrize("name", ["tool", "finish_tool"])
+def test_a_diameter_that_may_be_in_the_other_unit_is_a_warning(unit, diameter, bottom, words, name):
+    calls = {"tool": Number(2), name: Number(1), "z_bottom": Number(bottom)}
+    plain = changed(block(MID_SIDE_SQUARE, CutterComp.LEFT), calls)
+    tools = (Tool(1, diameter=Number(diameter)), Tool(2, diameter=Number(0.4)))
+    found = findings_of(replace(program(plain), unit=unit, tools=tools), "TOOL_SIZE")
+    text = f"{words} The program is in {'INCH' if unit is Unit.IN else 'MM'}. F6 is TOOL SETUP."
+    assert [(finding.severity, finding.segment, finding.field, sentence) for finding, sentence in found] == (
+        [(Severity.WARNING, 0, name, text)] if words else []
+    )

@@ -206,7 +206,7 @@ def test_the_outcome_says_the_worst_in_a_few_words(control: str, text: bytes, ou
 def test_nc_proof_names_its_key_for_a_missing_diameter(control: str, text: bytes, tool: int | None) -> None:
     done = run(text, control, ToolTable())
     assert isinstance(done, ControlRun)
-    row = answered(done, judge_run(done), text)
+    row = answered(done, judge_run(done), text, ToolTable())
     assert row.missing == tool
     assert row.stop_reason.endswith(f"T gives tool {tool} its diameter.") is (tool is not None)
 
