@@ -156,7 +156,7 @@ def test_the_option_for_an_unknown_tool_follows_the_findings_of_one_control(
     other.write_text("T2 D.5\n")
     known.write_text("T3 D.5\n")
     arguments = (file, "--control", "linuxcnc")
-    advice = "No diameter of tool 3 is known: add --tool 3=10mm with the real diameter, or --tools TABLE."
+    advice = "No diameter of tool 3 is known: add --tool 3=0.5in with the real diameter, or --tools TABLE."
     assert output(capsys, *arguments)[1].splitlines()[-1] == advice
     assert output(capsys, *arguments, "--tools", other)[1].splitlines()[-1] == advice
     status, out, _ = output(capsys, *arguments, "--tools", known)

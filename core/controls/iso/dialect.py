@@ -61,6 +61,14 @@ class Code:
     value: int = 0
 
 
+METRIC_CODES: Final = frozenset((210, 710))
+
+
+def unit_of_code(code: int) -> Unit:
+    """Return the unit that a code of CodeAction.UNITS chooses."""
+    return Unit.MM if code in METRIC_CODES else Unit.IN
+
+
 PLANE_OF_CODE: Final[Mapping[int, Plane]] = {170: Plane.XY, 180: Plane.ZX, 190: Plane.YZ}
 
 CodeGroup = tuple[str, CodeAction, tuple[int, ...]]

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import re
+from collections.abc import Sequence
 from dataclasses import replace
 from typing import Final
 
@@ -10,21 +11,24 @@ import numpy as np
 
 from core.controls.control_run import AlarmError, ControlRun, Log, Spot
 from core.controls.control_tools import ToolTable
-from core.controls.iso.dialect import Dialect
+from core.controls.iso.dialect import CodeAction, Dialect, unit_of_code
 from core.controls.iso.expressions import ParameterStore
 from core.controls.iso.flow import Flow, MakeControl, OWordFlow, ProgramLibrary, no_library
 from core.controls.iso.machine import Machine
 from core.controls.iso.macro_b_flow import MacroFlow
 from core.controls.iso.macro_b_machine import MacroMachine
+from core.controls.iso.reader import without_comments
 from core.controls.moves import Moves
-from core.controls.program_text import BYTE_ORDER_MARKS, lines_of
+from core.controls.program_text import BYTE_ORDER_MARKS, capitals, lines_of
 from core.progress import Progress, silent
+from core.units import Unit
 
 LINES_BETWEEN: Final = 200
 """Lines between two reports of progress."""
 
 
 _CR_ALONE: Final = re.compile(rb"\r(?!\n)")
+_G_WORD: Final = re.compile(r"(?<![A-Z])G[ \t]*0*(\d{1,4})(?!\d|\.0*[1-9])")
 
 
 def run_iso(
@@ -65,12 +69,24 @@ def run_iso(
     control.close_stretch()
     flow.finish(alarmed=stopped_at is not None)
     unit = machine.first_unit or machine.unit
+    if stopped_at is not None and machine.first_unit is None and not machine.unit_said:
+        unit = _first_unit_said(lines, dialect) or unit
     tape, stretches = control.tape, tuple(control.stretches)
     spindle = tuple(machine.spindle)
     run = ControlRun(
         name, unit, tape.moves(), log.all_findings(), stopped_at, stretches, frozenset(tape.unplaced), spindle
     )
     return _by_main_lines(run, flow)
+
+
+def _first_unit_said(lines: Sequence[str], dialect: Dialect) -> Unit | None:
+    """Return the unit that a program would have had if it had not stopped before; None if it names none."""
+    for line in lines:
+        for word in _G_WORD.finditer(without_comments(capitals(line))):
+            code = dialect.codes.get(10 * int(word[1]))
+            if code is not None and code.action is CodeAction.UNITS:
+                return unit_of_code(code.value)
+    return None
 
 
 def _run(flow: Flow, machine: Machine, progress: Progress) -> None:

@@ -16,7 +16,7 @@ from core.controls.control_tools import ToolTable, missing_tool
 from core.controls.iso import cycles
 from core.controls.iso.arcs import IN_PLANE, NoArc, center_by_radius, given_center
 from core.controls.iso.code_support import CONTROLS_WITH_CODE, OFFSETS_ANYWHERE, TOOL_DATA, lathe_cycle, only_on
-from core.controls.iso.dialect import PLANE_OF_CODE, Code, CodeAction, Dialect, unused_words
+from core.controls.iso.dialect import PLANE_OF_CODE, Code, CodeAction, Dialect, unit_of_code, unused_words
 from core.controls.iso.modal_state import G54, ORIGIN, PER_MINUTE, TAKEN_AS_ZERO, ModalState, system_code
 from core.controls.iso.reader import Block, whole, whole_word
 from core.controls.moves import Plane, Point3, flat, without_rounding
@@ -56,7 +56,6 @@ _G53: Final = 530
 _G80: Final = 800
 _SURFACE_SPEED: Final = 960
 _TOOL_CHANGE: Final = 60
-_METRIC_CODES: Final = (210, 710)
 _PLANE_CODES: Final = {Plane.XY: 170.0, Plane.ZX: 180.0, Plane.YZ: 190.0}
 _POSITION_PARAMETERS: Final = {5420: 0, 5421: 1, 5422: 2, "_X": 0, "_Y": 1, "_Z": 2}
 _LINE_CODES: Final = (0, 10)
@@ -290,7 +289,7 @@ class Machine(ModalState):
                 self.log.stop("BEYOND", text, block.at("G", code.value))
 
     def _set_units(self, code: int) -> None:
-        self.unit = self.control.unit = Unit.MM if code in _METRIC_CODES else Unit.IN
+        self.unit = self.control.unit = unit_of_code(code)
         self.scale = 1.0 if self.unit is Unit.MM else 25.4
         self.unit_said = True
 

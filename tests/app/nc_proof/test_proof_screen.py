@@ -459,6 +459,14 @@ async def test_the_tool_dialog_asks_for_the_tool_that_the_control_lacks(tmp_path
         assert user.app.settings.tools_of(tmp_path / "p.nc") == "2=0.25in"
 
 
+async def test_a_diameter_is_in_the_unit_that_the_program_names_below_the_line_where_it_stops(tmp_path):
+    async with at_proof(tmp_path, b"T1 M6\nG20 G17 F10\nG1 X0 Y-1\nM2\n") as user:
+        await user.press("t")
+        assert "Tool and diameter in IN" in str(user.app.screen.query_one("#loss", Static).content)
+        await user.press(*".5", "enter")
+        assert user.proof.request.tools.get(1) == CutterTool(1, 0.5, unit=Unit.IN)
+
+
 async def test_a_klartext_tool_gets_its_diameter_by_name(tmp_path):
     text = (
         b'0 BEGIN PGM A MM\n1 TOOL CALL "Rough D10" Z S3000 F500\n2 L X-20 Y-20 Z-5 R0 FMAX\n'

@@ -5,6 +5,9 @@ from __future__ import annotations
 import pytest
 
 from core.controls.control_run import MAX_ALIKE, MAX_FINDINGS_OF_A_RULE, AlarmError, Log, Spot
+from core.finding import Severity
+from core.units import Unit
+from tests.core.controls.hand import ran
 
 
 def test_a_rule_is_reported_once_for_a_line() -> None:
@@ -53,3 +56,25 @@ def test_an_alarm_stops_at_its_own_line_or_another() -> None:
     with pytest.raises(AlarmError) as caught:
         Log().stop("A", "Text.", Spot(3), stops_at=9)
     assert (caught.value.line, caught.value.finding.line) == (9, 3)
+
+
+@pytest.mark.parametrize(
+    ("control", "text", "unit"),
+    [
+        ("linuxcnc", "T1 M6\nG20 G90\nG0 X1\nM2\n", Unit.IN),
+        ("linuxcnc", "T1 M6\n(G20)\n; G20\nG21\nM2\n", Unit.MM),
+        ("linuxcnc", "T1 M6 G 20\nM2\n", Unit.IN),
+        ("linuxcnc", "T1 M6\nG0 X1\nM2\n", Unit.MM),
+        ("linuxcnc", "T1 M6\nG20.1 G200\nG0 X1\nM2\n", Unit.MM),
+        # with a move before it the unit in force at the move counts
+        ("linuxcnc", "G0 X1\nT1 M6\nG20\nM2\n", Unit.MM),
+        ("rosettacnc:nist", "?\nG20\nG0 X1\nM2\n", Unit.IN),
+        ("nine-series:a", "?\nG70\nG0 X1.\nM2\n", Unit.IN),
+        ("nine-series:a", "?\nG71\nG0 X1.\nM2\n", Unit.MM),
+        ("fanuc:a", "?\nG21\nG0 X1.\nM30\n", Unit.MM),
+        ("linuxcnc", "T1 M6\nG70\nG0 X1\nM2\n", Unit.MM),
+    ],
+)
+def test_a_program_that_stops_before_it_names_its_unit_has_the_unit_named_below(control: str, text: str, unit: Unit):
+    run = ran(text, control)
+    assert (run.stopped_at, run.unit) == (2 if text.startswith("G0") else 1, unit)
