@@ -97,7 +97,10 @@ class _Writer:
         if not same:
             stock = f" DR{self.length(cut.stock)}" if cut.stock else ""
             yield WrittenLine(f"TOOL CALL {cut.tool} Z S{round(cut.speed)}{stock}")
-        yield WrittenLine(f"L Z{self.length(cut.travel)} R0 FMAX{'' if same else ' M3'}")
+        up = self.length(cut.travel)
+        # the pass before has left the tool at this height already
+        if before is None or not same or self.length(_end_height(before)) != up:
+            yield WrittenLine(f"L Z{up} R0 FMAX{'' if same else ' M3'}")
 
     def cut(self, run: PassWithLeads) -> Iterator[WrittenLine]:
         """Yield one run: down, in, along, out, up."""
@@ -163,3 +166,7 @@ class _Writer:
 
     def feed(self, value: float) -> str:
         return f"{from_mm(value, self.unit):.3f}".rstrip("0").rstrip(".")
+
+
+def _end_height(cut: ContourPass) -> float:
+    return cut.travels[-1].z if isinstance(cut, UncompensatedPass) and cut.travels else cut.leave

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from itertools import pairwise
 from math import cos, pi, sin
 
@@ -95,6 +96,23 @@ def test_the_text_of_a_square_from_mid_side() -> None:
             "16 END PGM PART MM\n",
         )
     )
+
+
+def test_between_two_depths_the_tool_goes_up_once() -> None:
+    square = compensate(SQUARE, Side.LEFT, 5.0, 4, closed=True, blend=3.0)
+    low = [replace(cut(square, depth), leave=2.0, travel=travel) for depth, travel in ((-2.0, 50.0), (-4.0, 2.0))]
+    text = written([*low, cut(square, -6.0), cut(square, -6.0, tool=2)])
+    lines = [line.partition(" ")[2] for line in text.splitlines()]
+    assert not [first for first, second in pairwise(lines) if first == second]
+    heights = [line for line in lines if line.startswith("L Z")]
+    assert heights == [
+        *("L Z+50 R0 FMAX M3", "L Z+2 R0 FMAX", "L Z-2 R0 F100", "L Z+2 R0 FMAX"),
+        # the second pass begins where the first one ended, the third one begins higher
+        *("L Z+2 R0 FMAX", "L Z-4 R0 F100", "L Z+2 R0 FMAX"),
+        *("L Z+50 R0 FMAX", "L Z+2 R0 FMAX", "L Z-6 R0 F100", "L Z+50 R0 FMAX"),
+        # a tool change names the height again, with M3
+        *("L Z+50 R0 FMAX M3", "L Z+2 R0 FMAX", "L Z-6 R0 F100", "L Z+50 R0 FMAX"),
+    ]
 
 
 @pytest.mark.parametrize("blend", [0.0, 3.0])
