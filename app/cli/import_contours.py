@@ -75,6 +75,8 @@ def _remedy(error: DrawingError, options: argparse.Namespace) -> str:
         return " Delete it from the drawing, or name the layers to take with --layer."
     if error.code == "NOT_DXF":
         return " For an NC program add --control NAME."
+    if error.code == "TOO_FAR" and error.readable:
+        return " Or leave it out with --damaged."
     return " Take it all the same with --damaged." if error.readable and not options.damaged else ""
 
 

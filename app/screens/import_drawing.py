@@ -79,6 +79,8 @@ PROMPT: Final = (
 LARGE_DRAWING_PROMPT: Final = (
     "+ and - zoom, arrows move, 0 shows all, n and p change the chain, Space marks, F7 or Esc: the list."
 )
+TITLE_OF_DOUBT: Final = {"DXF_DAMAGED": "DAMAGED", "TOO_FAR": "TOO FAR AWAY"}
+"""The title of the question whether to take what can be read, by the code of the error."""
 STAGE_NAMES: Final = {
     "reading": "Reading",
     "fitting": "Fitting arcs to curves",
@@ -216,10 +218,11 @@ class ImportScreen(BaseScreen):
         try:
             return await self._run_worker(lambda: Worker(read_and_list, data, self.path.name, unit))
         except DrawingError as error:
-            if error.code != "DXF_DAMAGED" or not error.readable:
+            title = TITLE_OF_DOUBT.get(error.code)
+            if title is None or not error.readable:
                 raise
             answers = [Answer("YES", "what can be read"), Answer("NO", "nothing")]
-            word = await self.app.push_screen_wait(Question("DAMAGED", [error.text, "Take it?"], answers, "NO"))
+            word = await self.app.push_screen_wait(Question(title, [error.text, "Take it?"], answers, "NO"))
             if word != "YES":
                 return None
         return await self._run_worker(lambda: Worker(partial(read_and_list, damaged=True), data, self.path.name, unit))

@@ -150,8 +150,9 @@ class Drawing:
 class DrawingError(Exception):
     """A drawing cannot be taken; the text is the sentence for the operator.
 
-    `code` is NOT_DXF, DXF_DAMAGED, NO_GEOMETRY, NOT_FLAT, TOO_MUCH, NO_EZDXF or FAILED.  `readable` counts the entities
-    of a damaged file that can be read if the operator accepts it; None if it cannot be taken.
+    `code` is NOT_DXF, DXF_DAMAGED, TOO_FAR, NO_GEOMETRY, NOT_FLAT, TOO_MUCH, NO_EZDXF or FAILED.  `readable` counts the
+    entities that can be read, if the operator accepts it, of a file that is damaged or has coordinates too far away;
+    None if it cannot be taken.
     """
 
     def __init__(self, code: str, text: str, readable: int | None = None) -> None:

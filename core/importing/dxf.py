@@ -223,8 +223,13 @@ class _Reader:
             return
         if len(self.shapes) + len(shapes) > MAX_SHAPES:
             raise too_much("lines and curves", len(self.shapes) + len(shapes), MAX_SHAPES)
-        if not all(map(_finite, shapes)):
-            self._unreadable(entity, f"a coordinate is larger than {LARGEST_COORDINATE:g} or no number")
+        numbers = [number for shape in shapes for number in _numbers(shape)]
+        if not all(map(isfinite, numbers)):
+            self._unreadable(entity, "a coordinate is no number")
+            return
+        largest = max(numbers, key=abs, default=0.0)
+        if abs(largest) > LARGEST_COORDINATE:
+            self._too_far(entity, largest)
             return
         self.taken += 1
         self.shapes += [Drawn(shape, layer, self.taken) for shape in shapes]
@@ -234,6 +239,14 @@ class _Reader:
         if not self.damaged:
             raise damaged_file(text, len(self.document.modelspace()) - 1)
         self.notes[f"{text}."] += 1
+
+    def _too_far(self, entity: DXFGraphic, number: float) -> None:
+        far = f"{_plain(number)}, larger than {_plain(LARGEST_COORDINATE)}"
+        text = f"The {entity.dxftype()} {self._where(entity)} has {far}"
+        if not self.damaged:
+            limit = "the largest coordinate that can be read. Move or scale it in the drawing"
+            raise DrawingError("TOO_FAR", f"{text}, {limit}.", len(self.document.modelspace()) - 1)
+        self.notes[f"{text}: it is left out."] += 1
 
     def _where(self, entity: DXFGraphic) -> str:
         place = self.lines.get(id(entity))
@@ -448,12 +461,19 @@ def _turned(begin: float, end: float) -> tuple[float, float]:
     return begin, begin + swept
 
 
-def _finite(shape: Shape) -> bool:
+def _plain(number: float) -> str:
+    """Return a number with commas, such as 20,000,000, or with an exponent if that would be long."""
+    return f"{number:,.0f}" if abs(number) < 1e3 * LARGEST_COORDINATE else f"{number:g}"
+
+
+def _numbers(shape: Shape) -> Iterable[float]:
+    """Return the numbers of a shape that must be in the range of coordinates."""
     match shape:
         case Line():
-            values: Iterable[float] = (*shape.start, *shape.end)
+            return (*shape.start, *shape.end)
         case EllipseArc():
-            values = (abs(shape.center), abs(shape.first), abs(shape.second), shape.begin, shape.end)
+            sizes = abs(shape.first), abs(shape.second)
+            return (shape.center.real, shape.center.imag, *sizes, shape.begin, shape.end)
         case BSpline():
-            values = (float(np.abs(shape.points).max()), float(shape.weights.max()), float(np.abs(shape.knots).max()))
-    return all(isfinite(value) and abs(value) <= LARGEST_COORDINATE for value in values)
+            arrays = (shape.points.real, shape.points.imag, shape.weights, shape.knots)
+            return [float(array.flat[int(np.abs(array).argmax())]) for array in arrays]

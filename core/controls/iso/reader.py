@@ -285,7 +285,8 @@ def fill_words(
             _report_twice(letter, block, log, syntax)
         words[letter] = value = float(number)
         if not -LARGEST_COORDINATE < value < LARGEST_COORDINATE:
-            log.stop("NUMBER", f"The number of {letter} is too large for any machine.", block.at(letter))
+            text = f"{letter}{quoted(number)} is too large: no machine goes beyond {LARGEST_COORDINATE:,.0f}."
+            log.stop("NUMBER", text, block.at(letter))
     return block
 
 

@@ -163,7 +163,8 @@ class State:
                 self.log.stop("NUMBER", f"{name} needs a number after it.", block.at(name))
             value = self.value(raw, block, name)
         if not -LARGEST_COORDINATE < value < LARGEST_COORDINATE:
-            self.log.stop("NUMBER", f"The number of {name} is too large for any machine.", block.at(name))
+            text = f"{name} {value:g} is too large: no machine goes beyond {LARGEST_COORDINATE:,.0f}."
+            self.log.stop("NUMBER", text, block.at(name))
         return value
 
     def value(self, formula: str, block: Block, name: str = "") -> float:

@@ -118,7 +118,9 @@ class _Table:
         if isinstance(value, bool) or not isinstance(value, int | float):
             raise self.fault(key, f"{key} must be a number, not {_written(value)}.")
         if _beyond(value, field, self.unit):
-            raise self.fault(key, f"{key} is {_written(value)}: no machine has such a number, correct it.")
+            largest = f"{LARGEST_COORDINATE:,.0f}{' mm' if field.kind in (Kind.LENGTH, Kind.FEED) else ''}"
+            text = f"{key} is {_written(value)}: no machine has such a number, correct it. The largest is {largest}."
+            raise self.fault(key, text)
         if field.kind is Kind.COUNT and value != int(value):
             raise self.fault(key, f"{key} must be a whole number, not {_written(value)}.")
         return float(value)

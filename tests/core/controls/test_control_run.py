@@ -5,7 +5,6 @@ from __future__ import annotations
 import pytest
 
 from core.controls.control_run import MAX_ALIKE, MAX_FINDINGS_OF_A_RULE, AlarmError, Log, Spot
-from core.finding import Severity
 from core.units import Unit
 from tests.core.controls.hand import ran
 

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import io
 import math
+import re
 from dataclasses import replace
 
 import pytest
@@ -348,6 +349,22 @@ def test_an_invalid_number_is_damage() -> None:
         with pytest.raises(DrawingError) as refused:
             read(dxf(circle((0, 0), 5)).replace(b"40\n5\n", b"40\n" + wrong + b"\n"))
         assert refused.value.code == "DXF_DAMAGED"
+
+
+def test_a_coordinate_that_is_too_far_away_is_named_with_the_limit() -> None:
+    data = dxf(line((0, 0), (5, -2e7)), *square(0, 0, 10))
+    with pytest.raises(DrawingError) as refused:
+        read(data)
+    assert (refused.value.code, refused.value.readable) == ("TOO_FAR", 4)
+    number = r"The LINE at line \d+ has -20,000,000, larger than 10,000,000"
+    limit = "the largest coordinate that can be read. Move or scale it in the drawing."
+    assert re.fullmatch(f"{number}, {limit}", refused.value.text)
+    taken = read_dxf(data, "test.dxf", damaged=True)
+    assert taken.entities == 4
+    assert re.fullmatch(f"{number}: it is left out.", taken.notes[-1])
+    with pytest.raises(DrawingError, match="has 1e\\+30, larger than 10,000,000"):
+        read(dxf(circle((0, 0), 1e30)))
+    assert read(dxf(line((0, 0), (1e7, 0)))).entities == 1
 
 
 def test_a_circle_with_zero_radius_is_skipped_and_reported() -> None:

@@ -70,6 +70,13 @@ def test_a_number_out_of_range_is_kept_for_the_form():
     assert loads(text, "x").blocks[0].speed == Number(-1.0)
 
 
+@pytest.mark.parametrize(("name", "limit"), [("huge", "10,000,000 mm"), ("huge-radius", "10,000,000 mm")])
+def test_a_number_too_large_for_any_machine_is_named_with_the_limit(name, limit):
+    path = BAD / f"{name}.toml"
+    with pytest.raises(StoreError, match=f"correct it. The largest is {limit}."):
+        loads_bytes(path.read_bytes(), str(path))
+
+
 @pytest.mark.parametrize("path", sorted(BAD.glob("*.toml")), ids=lambda path: path.stem)
 def test_bad_files_are_refused_with_line_and_key(path):
     before = path.read_bytes()
