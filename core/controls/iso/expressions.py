@@ -188,7 +188,7 @@ _MAX_INTEGER_DIFFERENCE: Final = 1e-4
 _NUMBER: Final = re.compile(r"(?:[0-9]++(?:\.[0-9]*+)?|\.[0-9]++)")
 _OPERATOR: Final = re.compile(r"\*\*|MOD|AND|XOR|OR|EQ|NE|GT|GE|LT|LE|[-+*/&|^]")
 _NAME: Final = re.compile(r"<([^<>#=]++(?:\[[^\]]*+\])?[^<>#=]*+)>")
-_FUNCTION: Final = re.compile(r"([A-Z]{2,6})\[")
+FUNCTION: Final = re.compile(r"([A-Z]{2,6})\[")
 
 
 def _modulo(left: float, right: float) -> float:
@@ -241,6 +241,10 @@ FUNCTIONS: Final[Mapping[str, Callable[[float], float]]] = {
 }
 
 
+Setting = tuple[int | str, float]
+"""A parameter's number or name, and its new value."""
+
+
 class ExpressionReader:
     """Reads values from a text in capitals without blanks; `at` is its position in the text.
 
@@ -251,6 +255,7 @@ class ExpressionReader:
     ranks = _BINARY_OPERATORS
     max_nested = 50
     nested_rule = "MACRO"
+    no_value = "WORD", "A value needs a letter before it; to set a parameter write #n=value."
 
     def __init__(self, text: str, values: MacroParameters, at: int = 0) -> None:
         self.text = text
@@ -306,6 +311,15 @@ class ExpressionReader:
         if self.text[self.at : self.at + 1] != "]":
             raise FaultError("MACRO", "The bracket is not closed; write the closing one.", begin)
         self.at += 1
+
+    def setting(self) -> Setting:
+        """Return what an assignment sets, and its value."""
+        begin, key = self.at, self.key()
+        if self.text[self.at : self.at + 1] != "=":
+            raise FaultError(*self.no_value, begin)
+        self.values.settable(key, begin)
+        self.at += 1
+        return key, self.right_side()
 
     def right_side(self) -> float:
         """Return the value right of an equal sign: that of an expression, on LinuxCNC of a single value."""
@@ -373,16 +387,25 @@ class ExpressionReader:
         return name[1]
 
     def _function(self) -> float:
-        begin, function = self.at, _FUNCTION.match(self.text, self.at)
+        begin, function = self.at, FUNCTION.match(self.text, self.at)
         if function is None:
             raise FaultError("MACRO", f"A value is missing{self._before()}.", begin)
-        name, self.at = function[1], function.end(1)
+        name = self.function_named(function[1])
+        if name is None:
+            raise FaultError("MACRO", f"This control has no function {function[1]}.", begin)
+        self.at = function.end(1)
+        return self.call(name, begin)
+
+    def function_named(self, written: str) -> str | None:
+        """Return the function of this control that a name means."""
+        return written if written in FUNCTIONS or written in ("ATAN", "EXISTS") else None
+
+    def call(self, name: str, begin: int) -> float:
+        """Return the value of a function, whose arguments come next."""
         if name == "EXISTS":
             return self._exists()
         if name == "ATAN":
             return self._atan(begin)
-        if name not in FUNCTIONS:
-            raise FaultError("MACRO", f"This control has no function {name}.", begin)
         return self._computed(begin, name, FUNCTIONS[name], self.brackets())
 
     def _atan(self, begin: int) -> float:
@@ -430,10 +453,6 @@ class CompactText(NamedTuple):
         return Spot(self.line, self.columns[min(at, len(self.columns) - 1)] + 1 if self.columns else 1)
 
 
-Setting = tuple[int | str, float]
-"""A parameter's number or name, and its new value."""
-
-
 class Word(NamedTuple):
     """A word: its letter, its number as text, and its column on the line."""
 
@@ -472,7 +491,7 @@ def _item(reader: ExpressionReader, line: CompactText, words: list[Word], settin
     if first == COMMENT_GAP:
         reader.at += 1
     elif first == "#":
-        settings.append(_setting(reader))
+        settings.append(reader.setting())
     elif first == "N" and text[begin + 1 : begin + 2] not in frozenset("0123456789"):
         raise FaultError("WORD", "A block number is plain digits.", begin)
     elif first == "N" and reader.values.kept is ParameterStore.NGC and _POINT_ENDS.match(text, begin + 1):
@@ -495,15 +514,6 @@ def not_a_word(text: str) -> str:
     if not text[0].isprintable():
         return f"An invisible character (U+{ord(text[0]):04X}) stands here. Delete it."
     return f"{quoted(text)} is not a word. Write a letter and a value."
-
-
-def _setting(reader: ExpressionReader) -> Setting:
-    begin, key = reader.at, reader.key()
-    if reader.text[reader.at : reader.at + 1] != "=":
-        raise FaultError("WORD", "A value needs a letter before it; to set a parameter write #n=value.", begin)
-    reader.values.settable(key, begin)
-    reader.at += 1
-    return key, reader.right_side()
 
 
 def report_unset(reader: ExpressionReader, line: CompactText, log: Log) -> None:

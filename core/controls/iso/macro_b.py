@@ -7,7 +7,6 @@ a word with it counts as not written, in sums it is 0, and only EQ and NE distin
 
 from __future__ import annotations
 
-import re
 from collections.abc import Callable, Mapping
 from math import asin, atan, atan2, ceil, degrees, floor, fmod
 from typing import Final
@@ -15,6 +14,7 @@ from typing import Final
 from core.controls.control_run import Log
 from core.controls.iso.expressions import (
     COMMENT_GAP,
+    FUNCTION,
     FUNCTIONS,
     CompactText,
     ExpressionReader,
@@ -177,7 +177,6 @@ _FUNCTIONS: Final[Mapping[str, Callable[[float], float]]] = {
     "ADP": float,
     "POW": float,
 }
-_FUNCTION: Final = re.compile(r"([A-Z]{2,5})\[")
 _LENGTH_LETTERS: Final = frozenset("IJKQRUVWXYZ")
 INCREMENTS: Final = {"20": 0.0001, "21": 0.001}
 """The least increment of a length in the unit that each G code chooses."""
@@ -190,6 +189,7 @@ class MacroReader(ExpressionReader):
     ranks = _BINARY_OPERATORS
     max_nested = 40
     nested_rule = "PS0118"
+    no_value = "PS0114", "A variable needs = and a value, or a letter before it."
 
     def __init__(self, text: str, values: Variables, at: int = 0) -> None:
         super().__init__(text, values, at)
@@ -198,8 +198,8 @@ class MacroReader(ExpressionReader):
         """How far apart the values were in each comparison."""
         self._brackets = 0
 
-    def expression(self) -> float:
-        """Return the value of an expression without brackets around it, as right of =."""
+    def right_side(self) -> float:
+        """Return the value right of an equal sign: that of an expression."""
         return self._ranked(0)
 
     def value(self) -> float:
@@ -252,15 +252,12 @@ class MacroReader(ExpressionReader):
             raise FaultError("PS0112", "A division by 0. Check the divisor.", at)
         return float(self._computed(at, name, operation, left, right))
 
-    def _function(self) -> float:
-        begin, function = self.at, _FUNCTION.match(self.text, self.at)
-        if function is None:
-            raise FaultError("PS0114", f"A value is missing{self._before()}.", begin)
-        # two letters of a name are enough
-        name = next((known for known in _FUNCTIONS if known.startswith(function[1])), None)
-        if name is None:
-            raise FaultError("PS0114", f"This control has no function {function[1]}.", begin)
-        self.at = function.end(1)
+    def function_named(self, written: str) -> str | None:
+        """Return the function that a name means; its first two letters are enough."""
+        return next((known for known in _FUNCTIONS if known.startswith(written)), None)
+
+    def call(self, name: str, begin: int) -> float:
+        """Return the value of a function, whose arguments come next."""
         first, second = self._arguments()
         self.note_use(first, second)
         if name == "ATAN" and second is None and self.text.startswith("/[", self.at):
@@ -270,11 +267,8 @@ class MacroReader(ExpressionReader):
             return self._apply_to_two(begin, name, first, second)
         if name == "ROUND" and self.increment:
             return self.to_increment(first)
-        return self._apply_function(begin, name, first)
-
-    def _apply_function(self, begin: int, name: str, value: float) -> float:
         try:
-            return self._computed(begin, name, _FUNCTIONS[name], value)
+            return self._computed(begin, name, _FUNCTIONS[name], first)
         except FaultError as fault:
             raise FaultError("PS0119", fault.text, begin) from None
 
@@ -315,12 +309,7 @@ def set_variables(reader: MacroReader, line: CompactText, values: Variables, log
         if count:
             message = "A second assignment in this block; cutcomp runs both. Write them in two blocks."
             log.warn("PS0127", message, line.place(begin))
-        key = reader.key()
-        if text[reader.at : reader.at + 1] != "=":
-            raise FaultError("PS0114", "A variable needs = and a value, or a letter before it.", begin)
-        values.settable(key, begin)
-        reader.at += 1
-        values.set(key, reader.expression())
+        values.set(*reader.setting())
 
 
 def words_of(
@@ -372,7 +361,7 @@ def _word_value(reader: MacroReader, letter: str, begin: int) -> float:
     text = reader.text
     signed = text[reader.at : reader.at + 1] in ("+", "-") and text[reader.at + 1 : reader.at + 2] == "#"
     if text[reader.at : reader.at + 1] in ("", COMMENT_GAP) or (
-        text[reader.at].isalpha() and not _FUNCTION.match(text, reader.at)
+        text[reader.at].isalpha() and not FUNCTION.match(text, reader.at)
     ):
         raise FaultError("PS0005", f"{letter} has no number. Write one or remove {letter}.", begin)
     if not signed:
