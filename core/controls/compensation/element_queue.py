@@ -141,7 +141,7 @@ class OneMoveQueue(ElementQueue):
         self.nose = (direction[0] * abs(offset), direction[1] * abs(offset))
         self.active = self.first = True
 
-    def turn_off(self, place: Place) -> None:
+    def compensation_off(self, place: Place) -> None:
         """G40: run the held move to its offset point."""
         if self.active and self.offset and not self.first:
             self._run_out(place)

@@ -18,14 +18,16 @@ from core.units import Unit
 
 
 class CodeAction(Enum):
-    """What a G code makes the machine do."""
+    """What a G code makes the machine do: up to SIDE in the order of execution, then the others."""
 
     MOTION = auto()
-    CYCLE = auto()
     PLANE = auto()
     UNITS = auto()
-    SIDE = auto()
     DISTANCE = auto()
+    OF_THIS_CONTROL = auto()
+    """A code of this control alone, which its `Control` handles."""
+    SIDE = auto()
+    CYCLE = auto()
     CENTERS = auto()
     SYSTEM = auto()
     SHIFT = auto()
@@ -48,8 +50,6 @@ class CodeAction(Enum):
     """A code that the control does not have but whose meaning is in force anyway: a warning."""
     UNSUPPORTED = auto()
     """A code that the control has but cutcomp does not support: the run stops."""
-    OF_THIS_CONTROL = auto()
-    """A code of this control alone, which its `Control` handles."""
 
 
 @dataclass(frozen=True, slots=True)

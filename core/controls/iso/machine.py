@@ -43,15 +43,6 @@ _G49: Final = 490
 
 _OTHER_AXES: Final = "ABCUVW"
 _ARC_TURNS: Final = {20: -1, 30: 1}
-_ACTION_ORDER: Final = {
-    CodeAction.MOTION: 0,
-    CodeAction.PLANE: 1,
-    CodeAction.UNITS: 2,
-    CodeAction.DISTANCE: 3,
-    CodeAction.OF_THIS_CONTROL: 4,
-    CodeAction.SIDE: 5,
-}
-_LATEST: Final = 9
 _G53: Final = 530
 _G80: Final = 800
 _SURFACE_SPEED: Final = 960
@@ -230,7 +221,7 @@ class Machine(ModalState):
                 self.log.stop(rule, text, place)
             self.log.warn(rule, "G0 to G3 next to a drilling cycle cancels the cycle. Write them in two blocks.", place)
             known = [code for code in known if code.action is not CodeAction.CYCLE]
-        known.sort(key=lambda code: _ACTION_ORDER.get(code.action, _LATEST))
+        known.sort(key=lambda code: min(code.action.value, CodeAction.SIDE.value + 1))
         return known
 
     def _moves_in(self, block: Block) -> bool:

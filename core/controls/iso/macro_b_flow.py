@@ -7,7 +7,7 @@ program that is not in the file is read from a library, and its moves and findin
 from __future__ import annotations
 
 import re
-from bisect import bisect_right
+from bisect import bisect_left, bisect_right, insort
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 from math import inf
@@ -115,7 +115,10 @@ class ModalCall:
 
 
 class MacroFlow(Flow):
-    """The rows of a program with macro statements; `numbers` and `starts` are each row's line and column less one."""
+    """The rows of a program with macro statements; `numbers` and `starts` are each row's line and column less one.
+
+    `programs` has the rows at which the programs of a number begin, those of called files last.
+    """
 
     def __init__(
         self, lines: list[str], dialect: Dialect, log: Log, machine: MacroMachine, library: ProgramLibrary
@@ -131,7 +134,7 @@ class MacroFlow(Flow):
         self.ends: dict[int, int] = {}
         self.numbered: dict[int, list[int]] = {}
         self.calls = [Call(0)]
-        self.starts_of_called: dict[tuple[int, int], int] = {}
+        self.programs: dict[int, list[int]] = {}
         self.modal_call: ModalCall | None = None
         self.no_point: list[tuple[str, int, int]] = []
         self.rows_run_again = 0
@@ -165,8 +168,8 @@ class MacroFlow(Flow):
             number = int(numbers[-1])
             # on a Fanuc, a P of more than four digits also holds the number of repeats
             for label in {number} if self.dialect.m97_calls else {number, number % 10_000}:
-                if (begin := self.labels.get(label)) is not None and not begin <= row < self._range_of(begin)[1]:
-                    called.add(begin)
+                if (begins := self.programs.get(label)) and not begins[0] <= row < self._range_of(begins[0])[1]:
+                    called.add(begins[0])
         return called, by_variable
 
     def _main_program(self) -> int:
@@ -241,7 +244,7 @@ class MacroFlow(Flow):
                 if self._head(text):
                     self.begins.append(row)
                 if program := _PROGRAM.match(text):
-                    self.labels.setdefault(int(program[1]), row)
+                    self.programs.setdefault(int(program[1]), []).append(row)
                 sequence = _NUMBER.match(text)
                 if sequence:
                     self.numbered.setdefault(int(sequence[1]), []).append(row)
@@ -514,7 +517,7 @@ class MacroFlow(Flow):
             return
         if 650 in block.g or 660 in block.g:
             yield replace(block, words={}, g=[650])
-            self._call_macro(block, row, modal=660 in block.g)
+            self._call_macro(block, modal=660 in block.g)
             return
         if 670 in block.g:
             self.modal_call = None
@@ -522,7 +525,7 @@ class MacroFlow(Flow):
             self.machine.following = self._following(row)
         moved = len(self.machine.control.tape)
         yield block
-        self._after_move(block, row, moved)
+        self._after_move(block, moved)
 
     def _block(self, row: int, statement: Statement) -> Block | None:
         """Return the block of words of a row, None if it has none."""
@@ -558,13 +561,13 @@ class MacroFlow(Flow):
                 return block
         return None
 
-    def _after_move(self, block: Block, row: int, moved: int) -> None:
+    def _after_move(self, block: Block, moved: int) -> None:
         """Start the macro of G66 after a block that moves."""
         modal = self.modal_call
         if modal is None or len(self.calls) != modal.depth or {"X", "Y", "Z"}.isdisjoint(block.words):
             return
         if len(self.machine.control.tape) > moved or self.machine.control.active:
-            self._begin_call(modal.number, modal.times, block, row, modal.arguments)
+            self._begin_macro(modal.number, modal.times, modal.arguments, block)
 
     # calls
 
@@ -580,67 +583,61 @@ class MacroFlow(Flow):
         return self._return(block) if 990 in block.m else True
 
     def _call(self, block: Block) -> None:
-        row, place = self.at - 1, block.at("M", 980)
-        if "P" not in block.words:
-            self.log.stop("PS0076", "The call needs P and the number of a program.", place)
-        number, times = round(block.words["P"]), block.words.get("L", 1.0)
-        if "L" not in block.words and number > MAX_TIMES and not self.dialect.m97_calls:
-            times, number = float(number // 10_000), number % 10_000
-        if not 0.0 <= times <= MAX_TIMES:
-            self.log.stop("PS0007", f"L is a number of times from 1 to {MAX_TIMES}.", block.at("L"))
-        if sum(not call.macro for call in self.calls[1:]) >= MAX_CALLS:
-            self.log.stop("PS0077", f"Subprograms run more than {MAX_CALLS} deep.", place)
-        if 970 in block.m:
-            self._push(self._target(number, place), max(round(times), 1), None)
-            return
-        self._begin_call(number, max(round(times), 1), block, row, None)
+        """Follow M98, which runs a program, or M97, which runs blocks of the one that calls."""
+        place = block.at("M", 980)
+        number, times = self._called(block, place, least=0)
+        self._check_depth(place, macro=False)
+        self._push(self._target(number, place) if 970 in block.m else self._start_of(number, block), times, None)
 
-    def _call_macro(self, block: Block, row: int, *, modal: bool) -> None:
+    def _call_macro(self, block: Block, *, modal: bool) -> None:
         """Call a macro with its arguments (G65), or keep it for the moves that follow (G66)."""
-        place = block.at("G")
+        number, times = self._called(block, block.at("G"), least=1)
+        if modal:
+            self.modal_call = ModalCall(number, times, arguments_of(block), len(self.calls))
+        else:
+            self._begin_macro(number, times, arguments_of(block), block)
+
+    def _called(self, block: Block, place: Place, least: int) -> tuple[int, int]:
+        """Return the program that a block calls, and how often it runs."""
         if "P" not in block.words:
             self.log.stop("PS0076", "The call needs P and the number of a program.", place)
         number, times = round(block.words["P"]), round(block.words.get("L", 1.0))
-        if not 1 <= times <= MAX_TIMES:
+        if "L" not in block.words and number > MAX_TIMES and 980 in block.m and not self.dialect.m97_calls:
+            times, number = divmod(number, 10_000)
+        if not least <= times <= MAX_TIMES:
             self.log.stop("PS0007", f"L is a number of times from 1 to {MAX_TIMES}.", block.at("L"))
-        arguments = arguments_of(block)
-        if modal:
-            self.modal_call = ModalCall(number, times, arguments, len(self.calls))
-        else:
-            self._begin_call(number, times, block, row, arguments)
+        return number, max(times, 1)
 
-    def _begin_call(
-        self, number: int, times: int, block: Block, row: int, arguments: Mapping[int, float] | None
-    ) -> None:  # fmt: skip
-        macros = sum(call.macro for call in self.calls[1:])
-        if arguments is not None and macros >= MAX_CALLS:
-            self.log.stop("PS0077", f"Macros run more than {MAX_CALLS} deep.", block.at("G"))
-        self._push(self._start_of(number, block, row), times, arguments)
+    def _check_depth(self, place: Place, *, macro: bool) -> None:
+        if sum(call.macro is macro for call in self.calls[1:]) >= MAX_CALLS:
+            what = "Macros" if macro else "Subprograms"
+            self.log.stop("PS0077", f"{what} run more than {MAX_CALLS} deep.", place)
 
-    def _start_of(self, number: int, block: Block, row: int) -> int:
+    def _begin_macro(self, number: int, times: int, arguments: Mapping[int, float], block: Block) -> None:
+        self._check_depth(block.at("G"), macro=True)
+        self._push(self._start_of(number, block), times, arguments)
+
+    def _start_of(self, number: int, block: Block) -> int:
         """Return where a program begins in the main file, or in a file added for the line that makes this call."""
-        start, caller = self.labels.get(number), self.origin_of(self.numbers[row])[0]
-        if start is not None and self.numbers[start] <= self.main_lines:
-            return start
-        if (number, caller) not in self.starts_of_called:
-            self._from_library(number, block, row, caller)
-        return self.starts_of_called[number, caller]
+        caller = self.origin_of(block.line)[0]
+        for start in self.programs.get(number, ()):
+            if self.numbers[start] <= self.main_lines or self.origin_of(self.numbers[start])[0] == caller:
+                return start
+        return self._from_library(number, block)
 
     def _push(self, start: int, times: int, arguments: Mapping[int, float] | None) -> None:
         self.calls[-1].rows_without_progress += ROWS_OF_CALL
-        call = Call(self.at, number=0, start=start, again=times - 1, macro=arguments is not None)
-        self.calls.append(call)
+        self.calls.append(Call(self.at, number=0, start=start, again=times - 1, macro=arguments is not None))
         if arguments is not None:
             self.variables.enter(arguments)
         self.at = start
         self.program = self._range_of(start)
 
-    def _from_library(self, number: int, block: Block, row: int, caller: int) -> None:
-        """Add a program that is not in the file, its lines numbered on from the file's."""
-        program = self.library(number)
-        if program is None and number in self.labels:  # it stands in a file that another line has called
-            self.starts_of_called[number, caller] = self.labels[number]
-            return
+    def _from_library(self, number: int, block: Block) -> int:
+        """Add a program that is not in the file, its lines numbered on from the file's; return where it begins."""
+        program, starts = self.library(number), self.programs.setdefault(number, [])
+        if program is None and starts:  # it stands in a file that another line has called
+            return starts[0]
         if program is None and number in BUILDER_PROGRAMS:
             text = f"O{number} may be a macro of the machine, such as for a probe. Add it to the file or its folder."
             self.log.stop("BEYOND", text, block.at("P"))
@@ -648,16 +645,12 @@ class MacroFlow(Flow):
             self.log.stop("PS0076", f"There is no program O{number} in this file or its folder. Add it.", block.at("P"))
         name, content = program
         lines, _, _ = _between_percents(lines_of(content))
-        first = self._append(lines, self.add_called(name, len(lines), self.numbers[row]))
+        first = self._append(lines, self.add_called(name, len(lines), block.line))
         begin = self._first_row(first)
         if begin not in self.begins:
-            self.begins.append(begin)
-            self.begins.sort()
-        self.labels.setdefault(number, begin)
-        for start in range(first, len(self.lines)):
-            if title := _PROGRAM.match(self.lines[start]):
-                self.starts_of_called.setdefault((int(title[1]), caller), start)
-        self.starts_of_called[number, caller] = begin
+            insort(self.begins, begin)
+        starts.insert(bisect_left(starts, first), begin)
+        return begin
 
     def _return(self, block: Block) -> bool:
         """Follow M99, with P to a block of the calling program; False if it ends the run."""

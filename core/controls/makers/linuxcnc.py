@@ -244,10 +244,6 @@ class LinuxCnc(OneMoveQueue, Control):
         self.note_programmed_radius(radius, "The diameter is negative: the tool runs on the other side.", block)
         self.turn_on(radius * side.sign, orientation)
 
-    def compensation_off(self, block: Block) -> None:
-        """G40: turn compensation off."""
-        self.turn_off(block)
-
     def radius(self, block: Block) -> tuple[float, int]:
         """Return the programmed radius, millimeters, negative to flip the side; and a lathe tool's orientation."""
         if not {411, 421}.isdisjoint(block.g):

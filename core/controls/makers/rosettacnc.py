@@ -122,10 +122,6 @@ class NormalEntry(OneMoveQueue, RosettaCnc):
         text = "The entry follows LinuxCNC: square to its own move. cutcomp assumes this; the manual does not say."
         self.log.inform("ENTRY", text, block.at_side())
 
-    def compensation_off(self, block: Block) -> None:
-        """G40: turn compensation off."""
-        self.turn_off(block)
-
 
 class NistEntry(ElementQueue, RosettaCnc):
     """The entry `nist`, without look-ahead; `before` is the element that ran last, None before the first one."""
