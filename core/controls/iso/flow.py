@@ -37,7 +37,7 @@ MAX_O_WORDS: Final = 15_000
 _FLOW_WORDS: Final = "ENDSUB|SUB|CALL|ELSEIF|ENDIF|IF|ELSE|ENDWHILE|WHILE|DO|ENDREPEAT|REPEAT|BREAK|CONTINUE|RETURN"
 _PROGRAM_ALONE: Final = re.compile(r"[ \t]*O[ \t]*0*([0-9]+)[ \t]*(?:\(.*)?$", re.IGNORECASE)
 _LINE: Final = re.compile(rf"(?:N[0-9]++)?O(?:([0-9]++)|<([^<>]++)>|([#\[].*?))({_FLOW_WORDS})(?=[\[#]|$)")
-_LOOP_ENDS: Final = {"WHILE": "ENDWHILE", "DO": "WHILE"}
+_LOOP_ENDS: Final = {"WHILE": "ENDWHILE", "DO": "WHILE", "REPEAT": "ENDREPEAT"}
 
 
 ProgramLibrary = Callable[[int | str], tuple[str, bytes] | None]
@@ -318,13 +318,13 @@ class OWordFlow(Flow):
             "ELSEIF": self._end_branch,
             "ELSE": self._end_branch,
             "ENDIF": self._end_branch,
-            "WHILE": self._while,
+            "WHILE": self._loop,
+            "DO": self._loop,
+            "REPEAT": self._loop,
             "ENDWHILE": self._again,
-            "DO": self._do,
-            "REPEAT": self._repeat,
             "ENDREPEAT": self._again,
-            "BREAK": self._break,
-            "CONTINUE": self._continue,
+            "BREAK": self._leave,
+            "CONTINUE": self._leave,
         }
 
     def _add_words(self, lines: Sequence[str], first: int = 0) -> None:
@@ -367,9 +367,6 @@ class OWordFlow(Flow):
     def _stop(self, word: OWord, text: str) -> NoReturn:
         self.log.stop("OWORD", text, word)
 
-    def _fault(self, word: OWord, fault: FaultError) -> NoReturn:
-        self.log.stop(fault.code, fault.text, word.text.place(fault.at))
-
     @property
     def _opened(self) -> dict[str, OpenBlock]:
         return self.calls[-1].opened
@@ -382,10 +379,9 @@ class OWordFlow(Flow):
             while reader.at < len(text) and len(values) < most:
                 values.append(reader.brackets())
             if reader.at < len(text):
-                rest = f"{quoted(text[reader.at :])} cannot follow {word.word.lower()}."
-                raise FaultError("OWORD", rest, reader.at)
+                raise FaultError("OWORD", f"{quoted(text[reader.at :])} cannot follow {word.word.lower()}.", reader.at)
         except FaultError as fault:
-            self._fault(word, fault)
+            self.log.stop(fault.code, fault.text, word.text.place(fault.at))
         report_unset(reader, word.text, self.log)
         return values
 
@@ -458,7 +454,7 @@ class OWordFlow(Flow):
         try:
             value = reader.value()
         except FaultError as fault:
-            self._fault(word, fault)
+            self.log.stop(fault.code, fault.text, word.text.place(fault.at))
         if reader.at != word.begin or value != round(value):
             self._stop(word, "The label of a subprogram must be a whole number.")
         return str(round(value))
@@ -496,32 +492,24 @@ class OWordFlow(Flow):
         if begun != here:
             self._stop(word, f"This label is in use since {begun}; give this {word.word.lower()} its own.")
 
-    def _while(self, word: OWord) -> int:
+    def _loop(self, word: OWord) -> int:
+        """Begin a loop or skip it; the `while` of a `do` ends it or returns to its beginning."""
         opened = self._opened.get(word.label)
-        if opened is not None and opened.word == "DO":
+        if word.word == "WHILE" and opened is not None and opened.word == "DO":
             if self._value(word):
                 return opened.row + 1
             del self._opened[word.label]
             return word.row + 1
         self._claim_label(word)
-        if not self._value(word):
-            self._opened.pop(word.label, None)
-            return self._seek(word, "ENDWHILE").row + 1
-        self._opened[word.label] = OpenBlock("WHILE", word.row)
-        return word.row + 1
-
-    def _do(self, word: OWord) -> int:
-        self._claim_label(word)
-        self._values(word, 0)
-        self._opened[word.label] = OpenBlock("DO", word.row)
-        return word.row + 1
-
-    def _repeat(self, word: OWord) -> int:
-        self._claim_label(word)
-        times = round(self._value(word, "a number"))
+        if word.word == "DO":
+            self._values(word, 0)
+            times = 1
+        else:
+            times = round(self._value(word, "a number")) if word.word == "REPEAT" else int(self._value(word) != 0.0)
         if times <= 0:
-            return self._seek(word, "ENDREPEAT").row + 1
-        self._opened[word.label] = OpenBlock("REPEAT", word.row, times - 1)
+            self._opened.pop(word.label, None)
+            return self._seek(word, _LOOP_ENDS[word.word]).row + 1
+        self._opened[word.label] = OpenBlock(word.word, word.row, times - 1)
         return word.row + 1
 
     def _again(self, word: OWord) -> int:
@@ -535,15 +523,13 @@ class OWordFlow(Flow):
         del self._opened[word.label]
         return word.row + 1
 
-    def _break(self, word: OWord) -> int:
-        opened = self._open(word, "WHILE", "DO")
-        end = self._seek(word, _LOOP_ENDS[opened.word])
+    def _leave(self, word: OWord) -> int:
+        """Leave a loop at a `break`, or go to its end at a `continue`."""
+        end = self._seek(word, _LOOP_ENDS[self._open(word, "WHILE", "DO").word])
+        if word.word == "CONTINUE":
+            return end.row
         del self._opened[word.label]
         return end.row + 1
-
-    def _continue(self, word: OWord) -> int:
-        opened = self._open(word, "WHILE", "DO")
-        return self._seek(word, _LOOP_ENDS[opened.word]).row
 
 
 MakeControl = Callable[[Log], Control]

@@ -11,6 +11,7 @@ from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from typing import Final
 
+from core.controls.iso.expressions import FUNCTIONS
 from core.controls.program_text import quoted
 
 MAX_NESTING: Final = 50
@@ -19,22 +20,14 @@ MAX_NESTING: Final = 50
 _TOKEN: Final = re.compile(r"\s*(?:(\d+[.,]?\d*|[.,]\d+)|(Q[LR]?\d+)|([A-Z]+|[-+*/^()])|(\S))", re.ASCII)
 
 _FUNCTIONS: Final[Mapping[str, Callable[[float], float]]] = {
-    "SIN": lambda x: math.sin(math.radians(x)),
-    "COS": lambda x: math.cos(math.radians(x)),
-    "TAN": lambda x: math.tan(math.radians(x)),
-    "ASIN": lambda x: math.degrees(math.asin(x)),
-    "ACOS": lambda x: math.degrees(math.acos(x)),
+    **{name: FUNCTIONS[name] for name in ("ABS", "ACOS", "ASIN", "COS", "EXP", "LN", "SIN", "SQRT", "TAN")},
     "ATAN": lambda x: math.degrees(math.atan(x)),
-    "SQRT": math.sqrt,
     "SQ": lambda x: x * x,
-    "ABS": abs,
     "INT": lambda x: float(math.trunc(x)),
     "FRAC": lambda x: math.modf(x)[0],
     "NEG": lambda x: -x,
     "SGN": lambda x: float((x > 0.0) - (x < 0.0)),
-    "LN": math.log,
     "LOG": math.log10,
-    "EXP": math.exp,
 }
 _OPERATORS: Final[Mapping[str, tuple[int, Callable[[float, float], float]]]] = {
     "+": (0, lambda a, b: a + b),
