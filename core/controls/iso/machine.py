@@ -192,10 +192,8 @@ class Machine(ModalState):
         for number in block.g:
             if number not in self.dialect.codes:
                 text = f"cutcomp does not know G{number / 10:g} on this control. Remove it or write the control's code."
-                text = (
-                    lathe_cycle(number, block.words) or f"{text} {only_on(CONTROLS_WITH_CODE.get(number, ()))}".rstrip()
-                )
-                self.log.stop("CODE", text, block.at("G", number))
+                text = f"{text} {only_on(CONTROLS_WITH_CODE.get(number, ()))}".rstrip()
+                self.log.stop("CODE", lathe_cycle(number, block.words) or text, block.at("G", number))
 
     def _grouped(self, block: Block) -> list[Code]:
         """Return a block's G codes in execution order; stop at an unknown one or, on most controls, two of a group."""
@@ -276,8 +274,7 @@ class Machine(ModalState):
                 self.control.maker_code(code.value, block)
             case CodeAction.UNSUPPORTED:
                 text = f"cutcomp does not support G{code.value / 10:g}. Write out the moves that it makes or changes."
-                text = lathe_cycle(code.value, block.words) or text
-                self.log.stop("BEYOND", text, block.at("G", code.value))
+                self.log.stop("BEYOND", lathe_cycle(code.value, block.words) or text, block.at("G", code.value))
 
     def _set_units(self, code: int) -> None:
         self.unit = self.control.unit = unit_of_code(code)

@@ -58,7 +58,7 @@ _KEYWORD: Final = re.compile(
     r"DO(?=[0-9#\[])|END(?=[0-9#\[])|GO(?:TO)?(?=[-+0-9#\[])|#|(?=\[))"
 )
 _EXTERNAL: Final = re.compile(r"(?:/[0-9]?)?(?:N[0-9]++)?(DPRNT|BPRNT|POPEN|PCLOS|SETVN)")
-_THEN: Final = re.compile(r"TH(?:EN)?")
+_CONSEQUENCE: Final = re.compile(r"(TH(?:EN)?)?(GO(?:TO)?)?")
 _NO_O_WORD: Final = (
     r"(?![ \t]*+(?:sub|endsub|call|return|if|elseif|else|endif|while|endwhile|do|repeat|endrepeat|break|continue)\b)"
 )
@@ -272,10 +272,8 @@ class MacroFlow(Flow):
         self.ran[line - 1] = True
         rows_without_progress = self.calls[-1].rows_without_progress
         if rows_without_progress > MAX_ROWS_WITHOUT_PROGRESS + (1 + ROWS_OF_CALL) * len(self.lines):
-            text = (
-                f"The program does not end: for {rows_without_progress} blocks or more, no condition of a loop or "
-                "a jump came closer to its end. cutcomp stops here."
-            )
+            text = f"The program does not end: for {rows_without_progress} blocks or more, no condition of a loop or"
+            text = f"{text} a jump came closer to its end. cutcomp stops here."
             self.log.stop("LIMIT", text, Spot(self.numbers[line - 1]))
         if self.rows_run_again > MAX_ROWS_RUN_AGAIN or self.rows_without_movement > MAX_ROWS_WITHOUT_MOVEMENT:
             text = "The program does not end: a loop or a jump runs for ever. cutcomp stops here."
@@ -345,11 +343,8 @@ class MacroFlow(Flow):
         """Report the first common variable that a row reads before the program sets it."""
         unset, self.variables.unset = self.variables.unset, []
         if unset:
-            text = (
-                f"The program does not set #{unset[0]}; cutcomp takes it as vacant, 0 in a sum. "
-                "The control may keep a value in it."
-            )
-            self.log.warn("PARAMETER", text, Spot(self.numbers[row]))
+            text = f"The program does not set #{unset[0]}; cutcomp takes it as vacant, 0 in a sum."
+            self.log.warn("PARAMETER", f"{text} The control may keep a value in it.", Spot(self.numbers[row]))
 
     def _statement(self, row: int) -> Statement:
         """Return a row as a macro statement, read once."""
@@ -416,20 +411,22 @@ class MacroFlow(Flow):
             self.log.inform("FN-MESSAGE", text, Spot(self.numbers[row]))
 
     def _if(self, reader: MacroReader, line: CompactText, row: int) -> int:
-        true = reader.brackets() != 0.0
-        self._note_progress(row, reader.differences)
-        text, then = line.text, _THEN.match(line.text, reader.at)
-        target = then.end() if then else reader.at
-        if then is None and not text.startswith("GO", target):
-            raise FaultError("PS0114", "IF needs GOTO or THEN after its condition.", min(reader.at, len(text) - 1))
-        if not true:
-            return row + 1
-        reader.at = target
-        if text.startswith("GO", target):
-            reader.at += 4 if text.startswith("GOTO", target) else 2
+        holds, consequence = self._condition(reader, row), _CONSEQUENCE.match(line.text, reader.at)
+        if consequence is None or not consequence[0]:
+            at = min(reader.at, len(line.text) - 1)
+            raise FaultError("PS0114", "IF needs GOTO or THEN after its condition.", at)
+        reader.at = consequence.end()
+        if holds and consequence[2]:
             return self._go_to(reader, row)
-        self._set(reader, line, row)
+        if holds:
+            self._set(reader, line, row)
         return row + 1
+
+    def _condition(self, reader: MacroReader, row: int) -> bool:
+        """True if the condition of IF or WHILE holds."""
+        holds = reader.brackets() != 0.0
+        self._note_progress(row, reader.differences)
+        return holds
 
     def _after_condition(self, statement: Statement, row: int) -> Statement:
         """Return the words of Haas's `[condition] M99 P`, none unless the condition is true."""
@@ -441,9 +438,14 @@ class MacroFlow(Flow):
     def _go_to(self, reader: MacroReader, row: int) -> int:
         begin = reader.at
         number = reader.value()
-        if reader.at < len(reader.text.rstrip(COMMENT_GAP)):
-            raise FaultError("PS0114", f"{quoted(reader.text[reader.at :])} cannot follow GOTO.", reader.at)
+        self._check_end(reader, "GOTO")
         return self._row_of(number, row, begin)
+
+    @staticmethod
+    def _check_end(reader: MacroReader, what: str) -> None:
+        """Refuse anything but comments after a number."""
+        if reader.at < len(reader.text.rstrip(COMMENT_GAP)):
+            raise FaultError("PS0114", f"{quoted(reader.text[reader.at :])} cannot follow {what}.", reader.at)
 
     def _row_of(self, number: float, row: int, at: int) -> int:
         """Return the row of a sequence number, the next one or else the program's first; close the loops it leaves."""
@@ -461,22 +463,19 @@ class MacroFlow(Flow):
         number = reader.value()
         if number not in (1.0, 2.0, 3.0):
             raise FaultError("PS0126", "The number of a loop is 1, 2 or 3.", begin)
-        if reader.at < len(reader.text.rstrip(COMMENT_GAP)):
-            raise FaultError("PS0114", f"{quoted(reader.text[reader.at :])} cannot follow here.", reader.at)
+        self._check_end(reader, "here")
         return round(number)
 
     def _while(self, reader: MacroReader, row: int) -> int:
-        true = reader.brackets() != 0.0
-        self._note_progress(row, reader.differences)
+        holds = self._condition(reader, row)
         if not reader.text.startswith("DO", reader.at):
             raise FaultError("PS0114", "WHILE needs DO and a number after its condition.", len(reader.text) - 1)
         reader.at += 2
         number = self._loop_number(reader)
-        end = self._end_of(number, row)
-        if not true:
-            self.calls[-1].loops.pop(number, None)
-            return end + 1
-        return self._enter_loop(number, row)
+        if holds:
+            return self._enter_loop(number, row)
+        self.calls[-1].loops.pop(number, None)
+        return self._end_of(number, row) + 1
 
     def _enter_loop(self, number: int, row: int) -> int:
         self._end_of(number, row)
@@ -489,8 +488,7 @@ class MacroFlow(Flow):
         if end is None:
             wanted = re.compile(rf"(?:/[0-9]?)?(?:N[0-9]++)?END{number}(?![0-9.])")
             last = self._range_of(row)[1]
-            rows = (other for other in range(row + 1, last) if wanted.match(self._squeezed(other)))
-            end = next(rows, None)
+            end = next((other for other in range(row + 1, last) if wanted.match(self._squeezed(other))), None)
             if end is None:
                 self.log.stop("PS0124", f"The loop DO{number} has no END{number}. Write it.", Spot(self.numbers[row]))
             self.ends[row] = end
@@ -691,11 +689,10 @@ class MacroFlow(Flow):
             least = f"{plain(value / 1000)} mm" if self.machine.unit is Unit.MM else f"{plain(value / 10000)} in"
             which = f"{count} lengths, the first one here, have" if count > 1 else "This length has"
             units = "unit" if abs(value) == 1.0 else "units"
-            message = (
-                f"{which} no decimal point. cutcomp takes {word} as {plain(value)} {units}; "
-                f"{self.dialect.least_increment_setting} it is {least}."
+            taken = (
+                f"cutcomp takes {word} as {plain(value)} {units}; {self.dialect.least_increment_setting} it is {least}."
             )
-            self.log.warn("FN-POINT", message, Spot(*place))
+            self.log.warn("FN-POINT", f"{which} no decimal point. {taken}", Spot(*place))
         if not alarmed:
             self._report_not_run()
 

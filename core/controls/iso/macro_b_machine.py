@@ -252,10 +252,8 @@ class MacroMachine(Machine):
 
     def _arc(self, block: Block, turn: int) -> None:
         if self.unknown & set(self.plane.axes[:2]):
-            text = (
-                "Where the arc starts is not known after the move to the machine's point. Write a straight move first."
-            )
-            self.log.stop("FN-WHERE", text, block.at("G"))
+            text = "Where the arc starts is not known after the move to the machine's point."
+            self.log.stop("FN-WHERE", f"{text} Write a straight move first.", block.at("G"))
         self._note_lost_height()
         words = dict(block.words)
         if "R" in words:

@@ -265,11 +265,9 @@ class State:
             self.log.warn("FEED", "This move has no feed: the control stops here. Write F or FMAX.", block)
         if len(self.known) < 3 and not self.known.issuperset(self.plane.axes[:2]):
             self.known.update(self.plane.axes[:2])
-            text = (
-                "Where the tool stands is not known here; cutcomp takes its last known place, or 0 at the beginning of "
-                "the program. Write an L block with both axes before."
-            )
-            self.log.warn("POSITION", text, block)
+            where = "its last known place, or 0 at the beginning of the program"
+            text = f"Where the tool stands is not known here; cutcomp takes {where}."
+            self.log.warn("POSITION", f"{text} Write an L block with both axes before.", block)
 
     def apply(self, block: Block) -> None:
         """Apply RL or RR from here on, at the radius of the tool in the spindle."""

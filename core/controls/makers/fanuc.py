@@ -178,14 +178,11 @@ class Fanuc(VectorQueue, Control):
         if self.number == 0:
             return 0.0
         machine, number = self.machine, self.number
-        radius = machine.offset_radius(number)
-        tool = machine.tool or machine.next_tool
+        radius, tool = machine.offset_radius(number), machine.tool or machine.next_tool
         if radius is None and machine.tools.get(tool) is not None and number - tool in SHARED_OFFSETS:
             radius = machine.offset_radius(tool)
-            text = (
-                f"D{number} is not in the tool table; cutcomp takes it for tool {tool}, as shared offset memories do."
-            )
-            self.log.inform("D-AS-T", text, place)
+            text = f"D{number} is not in the tool table; cutcomp takes it for tool {tool}"
+            self.log.inform("D-AS-T", f"{text}, as shared offset memories do.", place)
         if radius is None:
             text = f"Offset {number} is not in the tool table. Enter its tool or write another D."
             self.log.stop("PS0030", text, place, tool=number)

@@ -68,17 +68,13 @@ class Haas(fanuc.Fanuc):
     def after_too_many(self, block: Block) -> None:
         """Stop at too many blocks; only warn of one that ends a Fanuc's look-ahead by itself, as Haas does not say."""
         if self.motionless <= BLOCKS_READ - 2:
-            text = (
-                "The manuals do not say whether the control looks past a stop, a move of no length or a move to the "
-                "machine's zero under compensation. cutcomp assumes that it does."
-            )
+            what = "a stop, a move of no length or a move to the machine's zero"
+            text = f"The manuals do not say whether the control looks past {what} under compensation."
             if not self.log.has("HAAS-STOP"):
-                self.log.warn("HAAS-STOP", text, block)
+                self.log.warn("HAAS-STOP", f"{text} cutcomp assumes that it does.", block)
             return
-        text = (
-            f"More than {BLOCKS_READ - 2} blocks without movement in the plane stand before the next move. Remove some."
-        )
-        self.log.stop("H350", text, block)
+        text = f"More than {BLOCKS_READ - 2} blocks without movement in the plane stand before the next move."
+        self.log.stop("H350", f"{text} Remove some.", block)
 
     def left_open(self, place: Place) -> None:
         """Stop the run: the program ends under compensation."""

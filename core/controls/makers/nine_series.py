@@ -100,10 +100,8 @@ class NineSeries(ElementQueue, Control):
         for code, on in ((8000, False), (8010, True)):
             if code in block.m:
                 self.checks = on
-                text = (
-                    f"M{code // 10} turns the alarms for backwards moves and crossing vectors {'on' if on else 'off'}."
-                )
-                self.log.inform("R11", text, block.at("M", code))
+                text = f"M{code // 10} turns the alarms for backwards moves and crossing vectors"
+                self.log.inform("R11", f"{text} {'on' if on else 'off'}.", block.at("M", code))
         if self.active and not {0, 10}.isdisjoint(block.m):
             text = "Moves by hand or MDI at this stop are not compensated; compensation starts anew after them."
             self.log.inform("R6", text, block.at("M"))
@@ -120,12 +118,8 @@ class NineSeries(ElementQueue, Control):
         if number == 0 and (self.active or not COMPENSATION_CODES.isdisjoint(block.g)):
             text = "D0 does not cancel compensation, it goes on with radius 0; write G40 to cancel."
             self.log.warn("R3", text, block.at("D"))
-        if (
-            self.active
-            and self.exit_block is None
-            and COMPENSATION_CODES.isdisjoint(block.g)
-            and self.written_side is not None
-        ):
+        goes_on = self.active and self.exit_block is None and COMPENSATION_CODES.isdisjoint(block.g)
+        if goes_on and self.written_side is not None:
             self.coming = self._offset_radius(block) * self.written_side.sign
 
     def _offset_radius(self, block: Block) -> float:
@@ -189,11 +183,8 @@ class NineSeries(ElementQueue, Control):
         self.motionless += 1
         if self.motionless <= NON_MOTION or self.held is None or self.exit_block is not None:
             return
-        text = (
-            f"More than {NON_MOTION} blocks without motion (an assumed limit, the machine builder sets it): the move "
-            "ends square and may overcut. Remove some of these blocks."
-        )
-        self.log.warn("R5", text, block)
+        text = f"More than {NON_MOTION} blocks without motion (an assumed limit, the machine builder sets it)"
+        self.log.warn("R5", f"{text}: the move ends square and may overcut. Remove some of these blocks.", block)
         self.release_at_end()
         self.entering = True
 
@@ -246,7 +237,11 @@ class NineSeries(ElementQueue, Control):
             self._without_offset(first)  # up to here a D may come in a block of its own
             self.entering = False
             self.offset = self.coming
-            self._report_type_b(first, second)
+            if not self.type_a and inward_turn(first, second, self.offset) < 0.0:
+                text = (
+                    "cutcomp takes the generated blocks of a type B entry from figures; the manual's text lacks them."
+                )
+                self.log.inform("TYPE-B", text, first)
             joint = entry_joint(first, second, self.coming, self.rules.outside, direct=self.type_a)
             self._continue_stretch(joint)
             return self._with_notice(joint, second)
@@ -267,11 +262,6 @@ class NineSeries(ElementQueue, Control):
             text = "cutcomp takes the least length of a generated block (AMP) as 0; the control drops a shorter one."
             self._report_assumed("AMP", text, element)
         return joint
-
-    def _report_type_b(self, first: Element, second: Element) -> None:
-        if not self.type_a and inward_turn(first, second, self.offset) < 0.0:
-            text = "cutcomp takes the generated blocks of a type B entry from figures; the manual's text lacks them."
-            self.log.inform("TYPE-B", text, first)
 
     def _missed(self, first: Element, second: Element) -> Joint:
         """Return the joint of an inside corner whose offsets do not meet: it is tangent, or an alarm."""

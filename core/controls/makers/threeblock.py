@@ -9,7 +9,7 @@ goes straight from the square end of the last element to its own end point.
 from __future__ import annotations
 
 import re
-from math import hypot, radians
+from math import dist, radians
 from typing import Final, NoReturn
 
 from core.controls.compensation.corner_rules import CornerKind, CornerRules, Joint
@@ -68,7 +68,6 @@ class ThreeBlock(ElementQueue, Control):
         self.blocks: list[tuple[int, bool, bool]] = []
         self.turned_on = 0
         self.narrow = False
-        self.inserted = False
 
     def before_block(self, block: Block) -> None:
         """Check the rules for any block, and those for a block under compensation."""
@@ -153,12 +152,14 @@ class ThreeBlock(ElementQueue, Control):
 
     def _radius(self, block: Block) -> float:
         """Return half the diameter in force, in millimeters."""
-        tool = self.machine.tools.get(self.machine.tool)
-        if self.machine.tool == 0 or tool is None:
-            text = f"The diameter of tool {self.machine.tool} is not entered; write T1/length/diameter before."
-            if self.machine.tool == 0:
-                text = "The tool number must come before G41 or G42. Write T and the number."
-            self.log.stop("B5-TOOL", text, block.at_side(), tool=self.machine.tool or None)
+        number = self.machine.tool
+        tool = self.machine.tools.get(number)
+        if not number:
+            text = "The tool number must come before G41 or G42. Write T and the number."
+            self.log.stop("B5-TOOL", text, block.at_side())
+        if tool is None:
+            text = f"The diameter of tool {number} is not entered; write T1/length/diameter before."
+            self.log.stop("B5-TOOL", text, block.at_side(), tool=number)
         diameter = tool.diameter_mm(self.machine.unit)
         if abs(diameter) > LARGEST_DIAMETER + 1e-6:
             text = "The diameter {0} is beyond the largest of this control, {1}."
@@ -226,21 +227,16 @@ class ThreeBlock(ElementQueue, Control):
             start = offset_start(second, self.offset)
             return Joint(start, start)
         joint = super().joint(first, second)
-        if joint.corner is CornerKind.TANGENT:
-            self._report_g99(second)
-        return joint
-
-    def _report_g99(self, element: Element) -> None:
-        if not self.inserted:
+        if joint.corner is CornerKind.TANGENT and not self.log.has("G99"):
             text = "Between tangent moves, first at this line, the control puts its own G99: it does not slow down."
-            self.log.inform("G99", text, element)
-        self.inserted = True
+            self.log.inform("G99", text, second)
+        return joint
 
     def backwards(self, element: Element) -> None:
         """Report an element that is too short for the cutter, which the control does not notice."""
-        narrow = self.narrow
-        rule = "B16-NARROW" if narrow else "B17-STEP"
-        what = "The feature is narrower than the cutter" if narrow else "The step is smaller than the cutter's radius"
+        rule, what = "B17-STEP", "The step is smaller than the cutter's radius"
+        if self.narrow:
+            rule, what = "B16-NARROW", "The feature is narrower than the cutter"
         text = f"{what}: this block runs backwards and gouges without an alarm; use a smaller cutter."
         self.log.warn(rule, text, element)
 
@@ -254,8 +250,7 @@ class ThreeBlock(ElementQueue, Control):
         super().release(end)
 
     def _quick(self, element: Element, start: Point, end: Point) -> None:
-        feed = self.feed_of(element)
-        length = hypot(end[0] - start[0], end[1] - start[1])
+        feed, length = self.feed_of(element), dist(start, end)
         if element.turn:
             length = element_sweep(element) * abs(offset_radius(element, self.offset))
         if feed and not element.rapid and length / feed * 60 < SHORTEST_BLOCK_SECONDS:
