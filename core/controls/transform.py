@@ -37,6 +37,8 @@ class Transform:
 
     def applied(self, point: Point3) -> Point3:
         """Return a programmed point in work coordinates."""
+        if not self:
+            return point
         scaled = [
             fixed + (value - fixed) * factor
             for value, fixed, factor in zip(self._turned(point, self.angle), self.fixed, self.factors, strict=True)
@@ -45,6 +47,8 @@ class Transform:
 
     def undone(self, point: Point3) -> Point3:
         """Return the programmed point of a point in work coordinates: the inverse of `applied`."""
+        if not self:
+            return point
         x, y, z = (
             fixed + (value - fixed) / factor
             for value, fixed, factor in zip(self._mirrored(point), self.fixed, self.factors, strict=True)

@@ -97,6 +97,12 @@ class Control(Recorder):
         if "D" in block.words:
             self.machine.compare_offset(radius, f"D{block.words['D']:g}", block.at("D"))
 
+    def vector_of(self, block: Block) -> Point | None:
+        """Return the vector in the plane that a block gives with I, J, K, millimeters; None if it gives none."""
+        first, second, _ = IN_PLANE[self.plane]
+        x, y = (block.words.get(letter, 0.0) * self.machine.scale for letter in (first, second))
+        return (x, y) if first in block.words or second in block.words else None
+
     def program_stop(self) -> None:
         """Handle M0, M1 or M60 after the block's motion."""
 

@@ -8,7 +8,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 from dataclasses import replace
-from math import atan2, cos, hypot, radians, sin, tan
+from math import atan2, hypot, tan
 from typing import Final, NoReturn
 
 from core.controls.compensation.elements import arc_element
@@ -22,7 +22,7 @@ from core.controls.iso.macro_b import VACANT
 from core.controls.iso.modal_state import EXTERNAL_OFFSET, ORIGIN, TAKEN_AS_ZERO
 from core.controls.iso.reader import Block, whole, whole_word
 from core.controls.moves import Point3, flat, solid
-from core.controls.transform import UNSCALED, Transform
+from core.controls.transform import UNSCALED, Transform, rotated
 from core.units import Unit, from_mm, to_mm
 
 _LENGTH_OFFSET_L: Final = 10
@@ -103,9 +103,8 @@ class MacroMachine(Machine):
 
     def __init__(self, dialect: Dialect, control: Control, tools: ToolTable, log: Log) -> None:
         super().__init__(dialect, control, tools, log)
-        self.memories: dict[int, dict[int, float]] = {
-            kind: {} for kind in (_LENGTH_OFFSET_L, _LENGTH_WEAR_L, _RADIUS_OFFSET_L, _RADIUS_WEAR_L)
-        }
+        kinds = (_LENGTH_OFFSET_L, _LENGTH_WEAR_L, _RADIUS_OFFSET_L, _RADIUS_WEAR_L)
+        self.memories: dict[int, dict[int, float]] = {kind: {} for kind in kinds}
         self.separate = dialect.diameters_apart
         self.transform = Transform()
         self.unknown: set[int] = set()
@@ -157,18 +156,14 @@ class MacroMachine(Machine):
                 self.unknown.discard(axis)
                 self.start_unknown = True
                 self.start_height_unknown |= axis == 2
-        if self.polar is not None:
-            return self.transform.applied(self._polar_target(words, start))
-        if not self.transform:
-            return super().target(words, start)
-        return self.transform.applied(super().target(words, self.transform.undone(start)))
+        start = self.transform.undone(start)
+        to = super().target(words, start) if self.polar is None else self._polar_target(words, start, *self.polar)
+        return self.transform.applied(to)
 
-    def _polar_target(self, words: Mapping[str, float], start: Point3) -> Point3:
+    def _polar_target(self, words: Mapping[str, float], start: Point3, radius: float, angle: float) -> Point3:
         """Return the programmed point under G16: the plane's first axis is a radius, its second an angle in degrees."""
-        assert self.polar is not None
         first, second, third = ("XYZ"[axis] for axis in self.plane.axes)
-        here, origin = flat(self.transform.undone(start), self.plane), flat(self.shift, self.plane)
-        radius, angle = self.polar
+        here, origin = flat(start, self.plane), flat(self.shift, self.plane)
         radius = words[first] * self.scale if first in words else radius
         if second in words:
             angle = words[second] + (angle if self.incremental else 0.0)
@@ -179,8 +174,8 @@ class MacroMachine(Machine):
             height = words[third] * self.scale + (here[2] if self.incremental else origin[2])
         if first not in words and second not in words:
             return solid(here[0], here[1], height, self.plane)
-        turned = radians(angle)
-        return solid(center[0] + radius * cos(turned), center[1] + radius * sin(turned), height, self.plane)
+        x, y = rotated((radius, 0.0), angle)
+        return solid(center[0] + x, center[1] + y, height, self.plane)
 
     def _motion(self, block: Block) -> None:
         if block.corner is not None:

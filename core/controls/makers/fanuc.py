@@ -13,7 +13,6 @@ from typing import Final
 from core.controls.compensation.corner_rules import Outside
 from core.controls.compensation.elements import Element, line_element
 from core.controls.control_run import Log, Place, Spot
-from core.controls.iso.arcs import IN_PLANE
 from core.controls.iso.dialect import CYCLES_APART, PLANE_OF_CODE, USUAL_CODES, CodeAction, Dialect, codes
 from core.controls.iso.expressions import ParameterStore
 from core.controls.iso.flow import MakeControl
@@ -232,10 +231,7 @@ class Fanuc(VectorQueue, Control):
         """G40: turn compensation off, with the block's I, J or K as exit vector."""
         self.side = None
         if self.active:
-            first, second, _ = IN_PLANE[self.plane]
-            words, scale = block.words, self.machine.scale
-            given = first in words or second in words
-            self._cancel_in(block, (words.get(first, 0.0) * scale, words.get(second, 0.0) * scale) if given else None)
+            self._cancel_in(block, self.vector_of(block))
 
     def _cancel_in(self, block: Block, vector: Point | None) -> None:
         """Turn compensation off in this block: with its move in the plane, or at once if it has none."""
@@ -265,9 +261,7 @@ class Fanuc(VectorQueue, Control):
         """G39: request an arc around the corner, which ends square to the block's vector if it has one."""
         if not self.active:
             self.log.stop("PS0035", "G39 goes with compensation only. Write G41 or G42 before it.", block.at("G", code))
-        first, second, _ = IN_PLANE[self.plane]
-        self.round_corner = (block.words.get(first, 0.0), block.words.get(second, 0.0))
-        self.in_plane = True
+        self.round_corner, self.in_plane = self.vector_of(block) or (0.0, 0.0), True
 
     def travel(self, element: Element) -> None:
         """Run one element: as start-up, compensated, as cancel, or without compensation."""

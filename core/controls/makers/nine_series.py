@@ -27,7 +27,6 @@ from core.controls.compensation.corner_rules import (
 from core.controls.compensation.element_queue import ElementQueue
 from core.controls.compensation.elements import Element, fits, offset_end, offset_radius, offset_start
 from core.controls.control_run import Log, Place
-from core.controls.iso.arcs import IN_PLANE
 from core.controls.iso.dialect import CYCLES_APART, PLANE_OF_CODE, USUAL_CODES, CodeAction, Dialect, codes
 from core.controls.iso.flow import MakeControl
 from core.controls.iso.machine import Control
@@ -305,10 +304,7 @@ class NineSeries(ElementQueue, Control):
         if held is None or block is None:
             return
         if not {"I", "J", "K"}.isdisjoint(block.words):
-            first, second, _ = IN_PLANE[self.plane]
-            scale = self.machine.scale
-            vector = block.words.get(first, 0.0) * scale, block.words.get(second, 0.0) * scale
-            self.release(vector_end(held, vector, self.offset))
+            self.release(vector_end(held, self.vector_of(block) or (0.0, 0.0), self.offset))
         elif self.type_a or self.offset == 0.0:
             self.release_at_end()
         else:
