@@ -12,30 +12,9 @@ from dataclasses import dataclass, field
 from math import copysign, hypot, radians
 from typing import Final
 
-from core.controls.compensation.corner_rules import (
-    SAME_POINT,
-    CornerKind,
-    CornerRules,
-    Joint,
-    Outside,
-    corner_kind,
-    entry_joint,
-    exit_joint,
-    inward_turn,
-    join,
-    offset_change_joint,
-)
-from core.controls.compensation.elements import (
-    SAME_DIRECTION,
-    Element,
-    line_element,
-    meeting,
-    offset_end,
-    offset_point,
-    offset_radius,
-    offset_start,
-    runs_back,
-)
+from core.controls.compensation import corner_rules, elements
+from core.controls.compensation.corner_rules import SAME_POINT, CornerKind, CornerRules, Joint, Outside
+from core.controls.compensation.elements import SAME_DIRECTION, Element
 from core.controls.compensation.recorder import Recorder
 from core.controls.control_run import Log
 from core.controls.moves import solid
@@ -153,7 +132,7 @@ class VectorQueue(Recorder):
         self._release(held, vectors)
         self._follow(element, vectors, joint.center if len(vectors) > 1 else None)
         least = -POINT_ARC if self.vector_rules.point_arcs else POINT_ARC
-        if self.vector_rules.checks and element.turn and offset_radius(element, start) < least:
+        if self.vector_rules.checks and element.turn and elements.offset_radius(element, start) < least:
             # the alarm comes as soon as the arc is read
             what = "smaller" if self.vector_rules.point_arcs else "no larger"
             text = f"The arc radius {{0}} is {what} than the cutter radius {{1}}. Use a smaller cutter."
@@ -177,7 +156,7 @@ class VectorQueue(Recorder):
         if element.turn:
             text = "The arc after a square end begins with a straight move to its start. cutcomp assumes this move."
             self.log.inform("FN-N2-ARC", text, element)
-            vectors.append(offset_start(element, self.coming))
+            vectors.append(elements.offset_start(element, self.coming))
         self.before = None
         self.held = Held(element, vectors, self.coming)
 
@@ -187,13 +166,13 @@ class VectorQueue(Recorder):
         if rounded is not None:
             return self._rounded(first, element, offset, rounded)
         if held.startup and not first.moves:
-            return Joint(offset_start(element, start), offset_start(element, start))
+            return Joint(elements.offset_start(element, start), elements.offset_start(element, start))
         if held.startup:
-            return entry_joint(first, element, start, self.rules.outside, direct=self.vector_rules.type_a)
+            return corner_rules.entry_joint(first, element, start, self.rules.outside, direct=self.vector_rules.type_a)
         if start != offset:
             text = "The side changes here. cutcomp takes the way across from other makers' manuals."
             self.log.inform("FN-G1", text, element)
-            return offset_change_joint(first, element, offset, start)
+            return corner_rules.offset_change_joint(first, element, offset, start)
         return self._joined(first, element, offset)
 
     def _joined(self, first: Element, second: Element, offset: float) -> Joint:
@@ -202,25 +181,25 @@ class VectorQueue(Recorder):
         The offset of an arc no larger than the tool is a point or runs backwards, and is met beyond the arc's center.
         """
         beyond = _reaches_center(first, offset) or _reaches_center(second, offset)
-        if beyond and corner_kind(first, second, offset, self.rules) is CornerKind.INSIDE:
-            point = meeting(first, second, offset, beyond_center=True)
+        if beyond and corner_rules.corner_kind(first, second, offset, self.rules) is CornerKind.INSIDE:
+            point = elements.meeting(first, second, offset, beyond_center=True)
             return self._without_meeting(first, second, offset) if point is None else Joint(point, point)
-        joint = join(first, second, offset, self.rules)
+        joint = corner_rules.join(first, second, offset, self.rules)
         return self._without_meeting(first, second, offset) if joint.missed else joint
 
     def _without_meeting(self, first: Element, second: Element, offset: float) -> Joint:
-        if inward_turn(first, second, offset) >= MAX_TANGENT_ANGLE:
+        if corner_rules.inward_turn(first, second, offset) >= MAX_TANGENT_ANGLE:
             text = "The offsets of this inside corner do not meet. Use a smaller cutter or open the corner."
             self.log.stop(self.alarms.no_meeting, text, second, at=first.end)
-        return Joint(offset_end(first, offset), offset_start(second, offset))
+        return Joint(elements.offset_end(first, offset), elements.offset_start(second, offset))
 
     def _rounded(self, first: Element, second: Element, offset: float, vector: Point) -> Joint:
         """Return the joint of G39: an arc about the corner, to the start of the next element or square to a vector."""
-        start = offset_start(second, offset)
+        start = elements.offset_start(second, offset)
         if vector != (0.0, 0.0):
             size = hypot(*vector)
-            start = offset_point(second.start, (vector[0] / size, vector[1] / size), offset)
-        return Joint(offset_end(first, offset), start, center=second.start, corner=CornerKind.OUTSIDE)
+            start = elements.offset_point(second.start, (vector[0] / size, vector[1] / size), offset)
+        return Joint(elements.offset_end(first, offset), start, center=second.start, corner=CornerKind.OUTSIDE)
 
     def _follow(self, element: Element, vectors: list[Point], center: Point | None) -> None:
         """Hold the next element; from its start on, the stretch may have another side or radius."""
@@ -262,7 +241,7 @@ class VectorQueue(Recorder):
 
     def _run_element(self, held: Held, end: Point) -> None:
         element, start = held.element, held.vectors[-1]
-        radius = offset_radius(element, held.offset)
+        radius = elements.offset_radius(element, held.offset)
         vanished = element.start != element.end and hypot(start[0] - end[0], start[1] - end[1]) < SAME_POINT
         if not element.turn or held.straightened or vanished or abs(radius) <= POINT_ARC:
             self._line(element, end)
@@ -307,7 +286,7 @@ class VectorQueue(Recorder):
     def end_square(self) -> None:
         """Run the held element to its square end; the next element starts there."""
         if self.held is not None:
-            self.end_at(offset_end(self.held.element, self.held.offset))
+            self.end_at(elements.offset_end(self.held.element, self.held.offset))
 
     def end_at(self, point: Point) -> None:
         """Run the held element to a point."""
@@ -335,7 +314,7 @@ class VectorQueue(Recorder):
             self.end_square()
             return
         else:
-            joint = exit_joint(held.element, element, held.offset, self.rules.outside)
+            joint = corner_rules.exit_joint(held.element, element, held.offset, self.rules.outside)
         vectors = _points(joint, None)
         if not held.element.turn and joint.center is None and len(vectors) > 1:
             vectors.pop(0)
@@ -355,7 +334,7 @@ class VectorQueue(Recorder):
         if self.before is not None:
             rows, before = self.before
             self.tape.cut(rows)
-            self._run(before, offset_end(before.element, before.offset))
+            self._run(before, elements.offset_end(before.element, before.offset))
         for element in (last.element, *last.standing):
             self.straight(element, last.element.end)
 
@@ -378,20 +357,20 @@ def _points(joint: Joint, element: Element | None) -> list[Point]:
 
 def _reaches_center(element: Element, offset: float) -> bool:
     """True if an arc's offset is a point or lies beyond its center."""
-    return element.turn != 0 and offset_radius(element, offset) <= POINT_ARC
+    return element.turn != 0 and elements.offset_radius(element, offset) <= POINT_ARC
 
 
 def _crosses(element: Element, start: Point, end: Point) -> bool:
     """True if an element from one vector to another runs against its programmed direction."""
     at_one_point = element.turn != 0 and hypot(start[0] - end[0], start[1] - end[1]) < SAME_POINT
-    return not at_one_point and runs_back(element, start, end)
+    return not at_one_point and elements.runs_back(element, start, end)
 
 
 def vector_meeting(last: Element, vector: Point, offset: float) -> Point:
     """Return where the last element's offset meets that of the vector through its end, else the square end."""
     size = hypot(*vector)
     if not size:
-        return offset_end(last, offset)
+        return elements.offset_end(last, offset)
     towards = (last.end[0] + vector[0] / size, last.end[1] + vector[1] / size)
-    line = line_element(last.end, towards)
-    return meeting(last, line, offset) or offset_end(last, offset)
+    line = elements.line_element(last.end, towards)
+    return elements.meeting(last, line, offset) or elements.offset_end(last, offset)

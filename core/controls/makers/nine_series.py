@@ -13,17 +13,8 @@ from functools import partial
 from math import radians
 from typing import Final, NamedTuple
 
-from core.controls.compensation.corner_rules import (
-    CornerKind,
-    CornerRules,
-    Joint,
-    Outside,
-    entry_joint,
-    exit_joint,
-    inward_turn,
-    offset_change_joint,
-    vector_end,
-)
+from core.controls.compensation import corner_rules
+from core.controls.compensation.corner_rules import CornerKind, CornerRules, Joint, Outside
 from core.controls.compensation.element_queue import ElementQueue
 from core.controls.compensation.elements import Element, fits, offset_end, offset_radius, offset_start
 from core.controls.control_run import Log, Place
@@ -236,18 +227,18 @@ class NineSeries(ElementQueue, Control):
             self._without_offset(first)  # up to here a D may come in a block of its own
             self.entering = False
             self.offset = self.coming
-            if not self.type_a and inward_turn(first, second, self.offset) < 0.0:
+            if not self.type_a and corner_rules.inward_turn(first, second, self.offset) < 0.0:
                 text = (
                     "cutcomp takes the generated blocks of a type B entry from figures; the manual's text lacks them."
                 )
                 self.log.inform("TYPE-B", text, first)
-            joint = entry_joint(first, second, self.coming, self.rules.outside, direct=self.type_a)
+            joint = corner_rules.entry_joint(first, second, self.coming, self.rules.outside, direct=self.type_a)
             self._continue_stretch(joint)
             return self._with_notice(joint, second)
         if self.coming != self.offset:
             text = "The side or the radius changes at this line. cutcomp assumes the moves across; the manual has none."
             self.log.inform("CHANGE", text, second)
-            joint = offset_change_joint(first, second, self.offset, self.coming)
+            joint = corner_rules.offset_change_joint(first, second, self.offset, self.coming)
             self._continue_stretch(joint)
             return joint
         joint = super().joint(first, second)
@@ -265,7 +256,7 @@ class NineSeries(ElementQueue, Control):
     def _missed(self, first: Element, second: Element) -> Joint:
         """Return the joint of an inside corner whose offsets do not meet: it is tangent, or an alarm."""
         end = offset_end(first, self.offset)
-        if inward_turn(first, second, self.offset) < MAX_TANGENT_ANGLE:
+        if corner_rules.inward_turn(first, second, self.offset) < MAX_TANGENT_ANGLE:
             return Joint(end, end)
         text = "The offset paths do not meet at this inside corner: the compensation vectors cross."
         self._interference("R10", text, second)
@@ -304,11 +295,11 @@ class NineSeries(ElementQueue, Control):
         if held is None or block is None:
             return
         if not {"I", "J", "K"}.isdisjoint(block.words):
-            self.release(vector_end(held, self.vector_of(block) or (0.0, 0.0), self.offset))
+            self.release(corner_rules.vector_end(held, self.vector_of(block) or (0.0, 0.0), self.offset))
         elif self.type_a or self.offset == 0.0:
             self.release_at_end()
         else:
-            joint = self._with_notice(exit_joint(held, element, self.offset, self.rules.outside), element)
+            joint = self._with_notice(corner_rules.exit_joint(held, element, self.offset, self.rules.outside), element)
             self.release(joint.end)
             self.run_joint(joint, element, self.offset)
         self._cancel()
