@@ -461,6 +461,8 @@ class Word(NamedTuple):
     column: int
 
 
+STRICT_N: Final = "N stands first in a line, and its number has no point at its end. Write it so, or delete it."
+
 POLAR: Final = frozenset("@^")
 POLAR_TEXT: Final = "cutcomp does not follow @ and ^, polar coordinates. Write X and Y."
 
@@ -486,7 +488,7 @@ def evaluated_line(line: CompactText, values: MacroParameters, log: Log) -> list
 
 def _item(reader: ExpressionReader, line: CompactText, words: list[Word], settings: list[Setting]) -> None:
     """Read one word, or one setting of a parameter."""
-    begin, text = reader.at, line.text
+    begin, text, strict = reader.at, line.text, reader.values.kept is ParameterStore.NGC
     first = text[begin]
     if first == COMMENT_GAP:
         reader.at += 1
@@ -494,16 +496,13 @@ def _item(reader: ExpressionReader, line: CompactText, words: list[Word], settin
         settings.append(reader.setting())
     elif first == "N" and text[begin + 1 : begin + 2] not in frozenset("0123456789"):
         raise FaultError("WORD", "A block number is plain digits.", begin)
-    elif first == "N" and reader.values.kept is ParameterStore.NGC and _POINT_ENDS.match(text, begin + 1):
-        raise FaultError("WORD", "The number of a block has no point at its end.", begin)
-    elif first == "N" and (words or settings) and reader.values.kept is ParameterStore.NGC:
-        raise FaultError("WORD", "N stands first in a line.", begin)
+    elif first == "N" and strict and (words or settings or _POINT_ENDS.match(text, begin + 1)):
+        raise FaultError("WORD", STRICT_N, begin)
     elif "A" <= first <= "Z":
         reader.at += 1
         value = reader.value()
-        number = exact(value) if reader.values.kept is ParameterStore.NGC else plain(value)
-        words.append(Word(first, number, line.place(begin).column))
-    elif first in POLAR and reader.values.kept is ParameterStore.NGC:
+        words.append(Word(first, exact(value) if strict else plain(value), line.place(begin).column))
+    elif first in POLAR and strict:
         raise FaultError("BEYOND", POLAR_TEXT, begin)
     else:
         raise FaultError("WORD", not_a_word(text[begin:]), begin)
@@ -511,7 +510,7 @@ def _item(reader: ExpressionReader, line: CompactText, words: list[Word], settin
 
 def not_a_word(text: str) -> str:
     """Return the sentence that no word begins with a text; an invisible character is named by its number."""
-    if not text[0].isprintable():
+    if text and not text[0].isprintable():
         return f"An invisible character (U+{ord(text[0]):04X}) stands here. Delete it."
     return f"{quoted(text)} is not a word. Write a letter and a value."
 

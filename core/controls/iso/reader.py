@@ -18,6 +18,7 @@ from core.controls.iso.expressions import (
     COMMENT_GAP,
     POLAR,
     POLAR_TEXT,
+    STRICT_N,
     CompactText,
     MacroParameters,
     Word,
@@ -187,8 +188,7 @@ def _check_strictly(upper: str, line: int, log: Log) -> None:
     pairs = _PAIR.findall(words)
     first, count = pairs[0][0], sum(letter == "N" for letter, _ in pairs)
     if count == 1 and (first != "N" or pairs[0][1].endswith(".")):
-        message = "N stands first in a line, and its number has no point at its end. Write it so, or delete it."
-        log.stop("WORD", message, Spot(line, bare.index("N") + 1))
+        log.stop("WORD", STRICT_N, Spot(line, bare.index("N") + 1))
 
 
 def _pieces(text: str, line: int, log: Log, syntax: Syntax) -> Iterator[Block]:
@@ -304,7 +304,7 @@ def _fault(block: Block, bare: str, log: Log, syntax: Syntax) -> None:
     at += len(bare[at:]) - len(bare[at:].lstrip(" \t"))
     rest, place = block.text[at:], Spot(block.line, block.start + at + 1)
     if rest and not rest[0].isprintable():
-        log.stop("WORD", f"An invisible character (U+{ord(rest[0]):04X}) stands here. Delete it.", place)
+        log.stop("WORD", not_a_word(rest), place)
     if rest.startswith(",") and rest[1:2].isdigit():
         log.stop("WORD", "A comma is no decimal point here. Write a point.", place)
     if syntax.corners and rest.startswith(","):
@@ -321,7 +321,7 @@ def _fault(block: Block, bare: str, log: Log, syntax: Syntax) -> None:
     if any(character in rest[:80] for character in "#[<="):
         text = f"{quoted(rest)} is an expression; cutcomp evaluates none for this control. Write the number."
         log.stop("MACRO", f"{text} {only_on(CONTROLS_WITH_EXPRESSIONS)}", place)
-    log.stop("WORD", f"{quoted(rest)} is not a word. Write a letter and a number.", place)
+    log.stop("WORD", not_a_word(rest), place)
 
 
 _WORD_ANYWHERE: Final = re.compile(r"[A-Za-z][ \t]*+[-+]?[0-9.#\[<]")
