@@ -20,7 +20,6 @@ CHIP_CLEARANCE: Final = 0.254
 
 MAX_REPEATS: Final = 10_000
 
-_AXES: Final = (("X", "Y", "Z"), ("Z", "X", "Y"), ("Y", "Z", "X"))
 _PECK_CYCLES: Final = (730, 830)
 _FEEDS_OUT: Final = (740, 840, 850, 890)
 _BORING_CYCLE: Final = 850
@@ -69,7 +68,7 @@ def drill(state: ModalState, block: Block) -> Iterator[DrillMove]:
 def _take_values(state: ModalState, code: int, block: Block) -> None:
     """Take R, depth and peck from a block; a first block of a cycle that lacks a word stops the run."""
     cycle, words, scale = state.cycle, block.words, state.scale
-    letter = _AXES[state.plane][2]
+    letter = "XYZ"[state.plane.axes[2]]
     if cycle.code is None:
         cycle.began = flat(state.position, state.plane)[2] - flat(state.shift, state.plane)[2]
     for needed in ("R", letter) if cycle.code != code else ():

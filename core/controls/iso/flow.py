@@ -15,7 +15,6 @@ from typing import Final, NamedTuple, NoReturn
 
 from core.controls.control_run import NOT_RUN_TEXT, Log, Spot
 from core.controls.iso.code_support import CONTROLS_WITH_JUMPS, only_on
-from core.controls.iso.dialect import Dialect
 from core.controls.iso.expressions import CompactText, ExpressionReader, FaultError, MacroParameters, report_unset
 from core.controls.iso.machine import Control, Machine
 from core.controls.iso.reader import Block, check_length, has_words, read_line, whole, whole_word, without_comments
@@ -151,15 +150,13 @@ class Flow:
     the main file that calls it, so that its moves and findings count for the line of their own call.
     """
 
-    def __init__(
-        self, lines: list[str], dialect: Dialect, log: Log, machine: Machine, library: ProgramLibrary
-    ) -> None:  # fmt: skip
+    def __init__(self, lines: list[str], machine: Machine, library: ProgramLibrary) -> None:
         self.lines = lines
         self.main_lines = len(lines)
         self.called_from: list[CalledFile] = []
         self.library = library
-        self.dialect = dialect
-        self.log = log
+        self.dialect = dialect = machine.dialect
+        self.log = machine.log
         self.at = 0
         code = (index for index, line in enumerate(lines) if line.strip() and line.strip()[0] not in "(;%")
         self.first_code = next(code, len(lines))
@@ -298,10 +295,8 @@ class OWordFlow(Flow):
 
     values: MacroParameters
 
-    def __init__(
-        self, lines: list[str], dialect: Dialect, log: Log, machine: Machine, library: ProgramLibrary
-    ) -> None:  # fmt: skip
-        super().__init__(lines, dialect, log, machine, library)
+    def __init__(self, lines: list[str], machine: Machine, library: ProgramLibrary) -> None:
+        super().__init__(lines, machine, library)
         self.words = dict[int, OWord]()
         self.subs = list[int]()
         self.begun: dict[tuple[str | None, str], str] = {}

@@ -48,12 +48,11 @@ def run_iso(
     control = make(log)
     lines = lines_of(text)
     if dialect.parameters is ParameterStore.FANUC:
-        machine: Machine = (with_macros := MacroMachine(dialect, control, tools, log))
-        flow: Flow = MacroFlow(lines, dialect, log, with_macros, library)
+        machine: Machine = (with_macros := MacroMachine(dialect, control, tools))
+        flow: Flow = MacroFlow(lines, with_macros, library)
     else:
-        machine = Machine(dialect, control, tools, log)
-        flow_class = OWordFlow if dialect.parameters is ParameterStore.NGC else Flow
-        flow = flow_class(lines, dialect, log, machine, library)
+        machine = Machine(dialect, control, tools)
+        flow = (OWordFlow if dialect.parameters is ParameterStore.NGC else Flow)(lines, machine, library)
     stopped_at = None
     try:
         if dialect.syntax.strict and text.startswith(BYTE_ORDER_MARKS):
@@ -71,10 +70,16 @@ def run_iso(
     unit = machine.first_unit or machine.unit
     if stopped_at is not None and machine.first_unit is None and not machine.unit_said:
         unit = _first_unit_said(lines, dialect) or unit
-    tape, stretches = control.tape, tuple(control.stretches)
-    spindle = tuple(machine.spindle)
     run = ControlRun(
-        name, unit, tape.moves(), log.all_findings(), stopped_at, stretches, frozenset(tape.unplaced), spindle
+        name,
+        unit,
+        control.tape.moves(),
+        log.all_findings(),
+        stopped_at,
+        tuple(control.stretches),
+        frozenset(control.tape.unplaced),
+        tuple(machine.spindle),
+        dict(flow.variables.common) if isinstance(flow, MacroFlow) else {},
     )
     return _by_main_lines(run, flow)
 
@@ -109,9 +114,7 @@ def _run(flow: Flow, machine: Machine, progress: Progress) -> None:
 
 
 def _by_main_lines(run: ControlRun, flow: Flow) -> ControlRun:
-    """Return the run with its variables, and with each line of a called file replaced by the line that calls it."""
-    if isinstance(flow, MacroFlow):
-        run = replace(run, variables=dict(flow.variables.common))
+    """Return the run with each line of a called file replaced by the line that calls it."""
     if not flow.called_from:
         return run
     findings = []
@@ -119,18 +122,14 @@ def _by_main_lines(run: ControlRun, flow: Flow) -> ControlRun:
         line, place = flow.origin_of(finding.line or 0)
         text = f"{place}: {finding.text}" if place else finding.text
         findings.append(replace(finding, text=text, line=line or None, column=1 if place else finding.column))
-    stretches = tuple(
-        replace(stretch, programmed=_moves_by_main_lines(stretch.programmed, flow)) for stretch in run.stretches
-    )
-    stopped_at = None if run.stopped_at is None else flow.origin_of(run.stopped_at)[0]
+
+    def moved(moves: Moves) -> Moves:
+        return replace(moves, lines=np.array([flow.origin_of(line)[0] for line in moves.lines.tolist()], np.int32))
+
     return replace(
         run,
         findings=tuple(findings),
-        moves=_moves_by_main_lines(run.moves, flow),
-        stretches=stretches,
-        stopped_at=stopped_at,
+        moves=moved(run.moves),
+        stretches=tuple(replace(stretch, programmed=moved(stretch.programmed)) for stretch in run.stretches),
+        stopped_at=None if run.stopped_at is None else flow.origin_of(run.stopped_at)[0],
     )
-
-
-def _moves_by_main_lines(moves: Moves, flow: Flow) -> Moves:
-    return replace(moves, lines=np.array([flow.origin_of(line)[0] for line in moves.lines.tolist()], np.int32))

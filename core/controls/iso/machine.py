@@ -11,7 +11,7 @@ from typing import Final
 
 from core.controls.compensation.elements import arc_element, element_sweep, line_element
 from core.controls.compensation.recorder import Recorder
-from core.controls.control_run import Log, SpindleChange, Spot
+from core.controls.control_run import SpindleChange, Spot
 from core.controls.control_tools import ToolTable, missing_tool
 from core.controls.iso import cycles
 from core.controls.iso.arcs import IN_PLANE, NoArc, center_by_radius, given_center
@@ -119,8 +119,8 @@ class Control(Recorder):
 class Machine(ModalState):
     """Runs blocks on a control."""
 
-    def __init__(self, dialect: Dialect, control: Control, tools: ToolTable, log: Log) -> None:
-        super().__init__(dialect, tools, log)
+    def __init__(self, dialect: Dialect, control: Control, tools: ToolTable) -> None:
+        super().__init__(dialect, tools, control.log)
         self.control, self.side_on = control, False
         self.spindle = [SpindleChange()]
         control.machine, control.unit = self, self.unit

@@ -13,8 +13,7 @@ from dataclasses import dataclass, replace
 from math import inf
 from typing import Final, NamedTuple, NoReturn
 
-from core.controls.control_run import NOT_RUN_TEXT, Log, Place, Spot
-from core.controls.iso.dialect import Dialect
+from core.controls.control_run import NOT_RUN_TEXT, Place, Spot
 from core.controls.iso.expressions import COMMENT_GAP, CompactText, FaultError, plain
 from core.controls.iso.flow import Call, Flow, ProgramLibrary, o_words_of
 from core.controls.iso.macro_b import INCREMENTS, AlarmByProgramError, MacroReader, Variables, set_variables, words_of
@@ -120,10 +119,8 @@ class MacroFlow(Flow):
     `programs` has the rows at which the programs of a number begin, those of called files last.
     """
 
-    def __init__(
-        self, lines: list[str], dialect: Dialect, log: Log, machine: MacroMachine, library: ProgramLibrary
-    ) -> None:  # fmt: skip
-        super().__init__([], dialect, log, machine, library)
+    def __init__(self, lines: list[str], machine: MacroMachine, library: ProgramLibrary) -> None:
+        super().__init__([], machine, library)
         self.machine = machine
         self.variables = Variables(machine.value_of, machine.set_variable)
         self.numbers: list[int] = []

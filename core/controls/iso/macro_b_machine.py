@@ -12,7 +12,7 @@ from math import atan2, hypot, tan
 from typing import Final, NoReturn
 
 from core.controls.compensation.elements import arc_element
-from core.controls.control_run import Log, Spot
+from core.controls.control_run import Spot
 from core.controls.control_tools import ToolTable
 from core.controls.iso.arcs import IN_PLANE
 from core.controls.iso.dialect import Code, CodeAction, Dialect, p_is_of_g54
@@ -101,8 +101,8 @@ class MacroMachine(Machine):
     `corner_point` is that corner afterward.
     """
 
-    def __init__(self, dialect: Dialect, control: Control, tools: ToolTable, log: Log) -> None:
-        super().__init__(dialect, control, tools, log)
+    def __init__(self, dialect: Dialect, control: Control, tools: ToolTable) -> None:
+        super().__init__(dialect, control, tools)
         kinds = (_LENGTH_OFFSET_L, _LENGTH_WEAR_L, _RADIUS_OFFSET_L, _RADIUS_WEAR_L)
         self.memories: dict[int, dict[int, float]] = {kind: {} for kind in kinds}
         self.separate = dialect.diameters_apart
