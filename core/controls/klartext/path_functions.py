@@ -234,10 +234,8 @@ def _about_pole(state: State, block: Block, words: Words, end: list[float], turn
 
 def _check_radii(state: State, block: Block, center: Point, goal: Point) -> None:
     start = state.flat(state.position, state.pole_plane)[0]
-    first, last = hypot(start[0] - center[0], start[1] - center[1]), hypot(goal[0] - center[0], goal[1] - center[1])
-    if abs(first - last) > KLARTEXT_ARC_TOLERANCE.mm or min(first, last) <= JOINED:
-        text = "The arc's radius is {0} at its start and {1} at its end. Correct CC or the end point."
-        state.log.stop("ARC", text, block, lengths=(first, last))
+    if refused := KLARTEXT_ARC_TOLERANCE.refused(start, goal, center, state.unit):
+        state.log.stop("ARC", refused.text, block, lengths=refused.lengths)
 
 
 def _helix(state: State, block: Block, words: Words, end: list[float], angle: float, turn: int) -> None:

@@ -68,7 +68,7 @@ def rewritten_stretch(
     feeds = dict(zip(numbers, (feed or DEFAULT_FEED for feed in moves.feeds[rows].tolist()), strict=True))
     feeds |= {-number: feed for number, feed in feeds.items()}
     contour_pass = _contour_pass(source, stretch, float(moves.points[rows[0], 2]), feeds, tool)
-    led = _with_leads(shape, stretch, contour_pass, surface, style, blends=blends)
+    led = _with_leads(shape, contour_pass, surface, style, blends=blends)
     if led is None:
         line = int(moves.lines[rows[0]])
         return NotTranslated(f"at line {line} there is no room for a straight move into the cut and out of it")
@@ -97,34 +97,27 @@ def _contour_pass(
 
 
 def _with_leads(
-    shape: ProgrammedElements,
-    stretch: Stretch,
-    contour_pass: ContourPass,
-    surface: ProtectedContour,
-    style: IsoStyle,
-    *,
-    blends: bool,
+    shape: ProgrammedElements, contour_pass: ContourPass, surface: ProtectedContour, style: IsoStyle, *, blends: bool
 ) -> PassWithLeads | None:
     """Return the elements with the first leads that cut nothing, None if there are none."""
-    radius, first, last = stretch.radius, shape.elements[0], shape.elements[-1]
+    side, radius, first, last = surface.side, surface.radius, shape.elements[0], shape.elements[-1]
     for blend in BLEND_RADII if blends else BLEND_RADII[:1]:
-        begin = _path_end(stretch, first.start, first.start_direction, blend * radius, 1)
-        finish = _path_end(stretch, last.end, last.end_direction, blend * radius, -1)
-        into, off = _blend(begin, stretch.side, 1), _blend(finish, stretch.side, -1)
+        begin = _path_end(surface, first.start, first.start_direction, blend * radius, 1)
+        finish = _path_end(surface, last.end, last.end_direction, blend * radius, -1)
+        into, off = _blend(begin, side, 1), _blend(finish, side, -1)
         leads = clear_leads(begin, finish, style, radius, surface, into, off)
         if not isinstance(leads, float):
             shape = with_blends(shape, begin, finish, radius, (-shape.segments[0], -shape.segments[-1]))
-            return PassWithLeads(contour_pass, stretch.side, shape, leads[0], begin.corner, leads[1])
+            return PassWithLeads(contour_pass, side, shape, leads[0], begin.corner, leads[1])
     return None
 
 
-def _path_end(stretch: Stretch, corner: Point, direction: Point, blend: float, sense: int) -> PathEnd:
+def _path_end(surface: ProtectedContour, corner: Point, direction: Point, blend: float, sense: int) -> PathEnd:
     """Return the path's start (`sense` 1) or end (-1), with a quarter arc of radius `blend`, or none for 0."""
-    outward = offset_point((0.0, 0.0), direction, stretch.side.sign)
-    at = point_along(point_along(corner, outward, stretch.radius + blend), direction, -sense * blend)
-    return PathEnd(
-        at, point_along(at, direction, -sense * stretch.radius) if blend else corner, direction, outward, blend
-    )
+    outward = offset_point((0.0, 0.0), direction, surface.side.sign)
+    at = point_along(point_along(corner, outward, surface.radius + blend), direction, -sense * blend)
+    corner = point_along(at, direction, -sense * surface.radius) if blend else corner
+    return PathEnd(at, corner, direction, outward, blend)
 
 
 def _blend(end: PathEnd, side: Side, sense: int) -> tuple[Piece, ...]:
