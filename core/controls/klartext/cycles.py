@@ -170,7 +170,7 @@ def _call_block(state: State, block: Block) -> None:
     if head and head[1] == "POS":
         words = state.words(rest, COMMON_WORDS | frozenset(AXIS_WORDS))
         _refuse_compensated(state, block)
-        for index, value in enumerate(state.target(rest, words)):
+        for index, value in enumerate(state.target(words)):
             state.position[index] = value
     elif head and head[1] == "PAT" and state.cycle is not None:
         _pass_over(state, block, state.cycle, None, pattern=True)

@@ -27,13 +27,13 @@ _NEEDED_WORDS: Final = {
 def approach(state: State, block: Block) -> None:
     """APPR LT, LN, CT, LCT and their polar forms: pass on the lead to the contour's first point."""
     shape, polar, words = _read(state, block, "APPR")
-    end = end_point(state, block, words, polar=polar)
-    state.chosen_side(block, words)
+    end = end_point(state, words, polar=polar)
+    state.chosen_side(words)
     _check_side(state, block, shape)
-    lead = _lead(state, block, shape, words)
+    lead = _lead(state, shape, words)
     before = state.before
-    rapid, feed = state.chosen_feed(block, words)
-    functions(state, block, words)
+    rapid, feed = state.chosen_feed(words)
+    functions(state, words)
     state.moving(block, rapid=rapid, feed=feed)
     state.apply(block)
     element = straight_element(state, block, end, rapid=rapid, feed=feed)
@@ -49,10 +49,10 @@ def depart(state: State, block: Block) -> None:
     last = state.last
     if last is None:
         state.log.stop("HE7", "DEP needs a contour element directly before it. Write an L or C block first.", block)
-    lead = _lead(state, block, shape, words)
-    goal = _goal(state, block, words, shape, last, lead, polar=polar)
-    rapid, feed = state.chosen_feed(block, words)
-    functions(state, block, words)
+    lead = _lead(state, shape, words)
+    goal = _goal(state, words, shape, last, lead, polar=polar)
+    rapid, feed = state.chosen_feed(words)
+    functions(state, words)
     state.moving(block, rapid=rapid, feed=feed)
     element = straight_element(state, block, goal, rapid=rapid, feed=feed)._replace(start_direction=last.end_direction)
     hand = _hand(state.offset, state.applied)
@@ -83,34 +83,32 @@ def _check_side(state: State, block: Block, shape: LeadShape) -> None:
         state.log.inform("INTERPRETED", text, block)
 
 
-def _lead(state: State, block: Block, shape: LeadShape, words: Words) -> Lead:
+def _lead(state: State, shape: LeadShape, words: Words) -> Lead:
     for name in _NEEDED_WORDS[shape]:
         if name not in words:
-            state.log.stop("LEAD", f"{block.head} {shape} needs {name}. Write it with a number.", block)
-    length = state.length(block, words, "LEN") if "LEN" in words else 0.0
-    radius = state.length(block, words, "R") if "R" in words else 0.0
-    angle = state.number(block, words, "CCA") if "CCA" in words else 0.0
+            state.log.stop("LEAD", f"{words.block.head} {shape} needs {name}. Write it with a number.", words.block)
+    length = state.length(words, "LEN") if "LEN" in words else 0.0
+    radius = state.length(words, "R") if "R" in words else 0.0
+    angle = state.number(words, "CCA") if "CCA" in words else 0.0
     if length < 0.0 or ("LEN" in words and not length):
-        state.log.stop("LEAD", "LEN must be above 0.", block.at("LEN"))
+        state.log.stop("LEAD", "LEN must be above 0.", words.at("LEN"))
     if "R" in words and (not radius or (radius < 0.0 and shape is LeadShape.LCT)):
         least = "must be above 0" if shape is LeadShape.LCT else "cannot be 0"
-        state.log.stop("LEAD", f"The radius of {block.head} {shape} {least}.", block.at("R"))
+        state.log.stop("LEAD", f"The radius of {words.block.head} {shape} {least}.", words.at("R"))
     if "CCA" in words and not 0.0 < angle <= 360.0:
-        state.log.stop("LEAD", "CCA must be above 0, up to 360 degrees. The sign of R flips the arc.", block.at("CCA"))
+        state.log.stop("LEAD", "CCA must be above 0, up to 360 degrees. The sign of R flips the arc.", words.at("CCA"))
     return Lead(shape, length, radius, radians(angle))
 
 
-def _goal(
-    state: State, block: Block, words: Words, shape: LeadShape, last: Element, lead: Lead, *, polar: bool
-) -> list[float]:
+def _goal(state: State, words: Words, shape: LeadShape, last: Element, lead: Lead, *, polar: bool) -> list[float]:
     """Return where a departure ends: the programmed point for LCT, else the end of the lead itself."""
-    end = end_point(state, block, words, polar=polar)
+    end = end_point(state, words, polar=polar)
     point, height = state.flat(end)
     if shape is LeadShape.LCT:
         return end
     here = state.flat(state.position)[0]
     if point != here:
-        state.log.stop("WORD", f"DEP {shape} ends where its lead ends. Only DEP LCT takes an end point.", block)
+        state.log.stop("WORD", f"DEP {shape} ends where its lead ends. Only DEP LCT takes an end point.", words.block)
     start = offset_point(here, last.end_direction, state.offset)
     curve = departure(lead, start, here, last.end_direction, _hand(state.offset, state.applied))
     return list(solid(*(curve.point if curve else here), height, state.plane))

@@ -32,18 +32,18 @@ _DIFFERENT_ON_CONTROL: Final[Mapping[int, str]] = {
 }
 
 
-def functions(state: State, block: Block, words: Words) -> CornerRules:
+def functions(state: State, words: Words) -> CornerRules:
     """Apply the block's M words, and return the rules of the corner at its end."""
     corner = KLARTEXT_CORNERS
     for name in words:
         if name == "M120":
-            _look_ahead(state, block, words)
+            _look_ahead(state, words)
         elif name[0] == "M" and name not in _FUNCTION_OF_WORD:
-            corner = _function(state, block, name, corner)
+            corner = _function(state, words.block, name, corner)
     for name, owner in _FUNCTION_OF_WORD.items():
         if name in words and owner not in words:
             text = f"{name} belongs to {owner}. Write it with {owner}, or leave it out."
-            state.log.stop("WORD", text, block.at(name))
+            state.log.stop("WORD", text, words.at(name))
     return corner
 
 
@@ -68,15 +68,15 @@ def _function(state: State, block: Block, name: str, corner: CornerRules) -> Cor
     return corner
 
 
-def _look_ahead(state: State, block: Block, words: Words) -> None:
+def _look_ahead(state: State, words: Words) -> None:
     """M120 LA n looks ahead from this block on until R0; without LA, or with LA0, it is off."""
-    depth = state.number(block, words, "LA") if "LA" in words else 0.0
+    depth = state.number(words, "LA") if "LA" in words else 0.0
     if not 0.0 <= depth <= MAX_LOOK_AHEAD or depth != int(depth):
-        state.log.stop("NUMBER", f"LA is a whole number of blocks up to {MAX_LOOK_AHEAD}.", block.at("LA"))
+        state.log.stop("NUMBER", f"LA is a whole number of blocks up to {MAX_LOOK_AHEAD}.", words.at("LA"))
     if depth and not state.side:
-        state.log.warn("M", "M120 has no effect in this block. Write it in a block with RL or RR.", block.at("M120"))
+        state.log.warn("M", "M120 has no effect in this block. Write it in a block with RL or RR.", words.at("M120"))
     elif depth:
-        state.log.inform("INTERPRETED", M120_SKIPS, block.at("M120"))
+        state.log.inform("INTERPRETED", M120_SKIPS, words.at("M120"))
     state.ahead = int(depth) if state.side else 0
 
 
@@ -86,11 +86,11 @@ def only_functions(state: State, block: Block) -> None:
     if block.head != "STOP":
         whole = block._replace(body=block.head + block.body, begin=block.begin - len(block.head))
     words = state.words(whole, frozenset(("M", "LA", "MB", "MAX")))
-    if not leaves_workpiece(state, whole, words):
-        functions(state, whole, words)
+    if not leaves_workpiece(state, words):
+        functions(state, words)
 
 
-def leaves_workpiece(state: State, block: Block, words: Words) -> bool:
+def leaves_workpiece(state: State, words: Words) -> bool:
     """True if uncompensated M91, M92 or M140 sends axes where only the machine knows; the move is then left out."""
     if _MACHINE_POSITION_FUNCTIONS.isdisjoint(words) or state.applied or state.side:
         return False
@@ -100,5 +100,5 @@ def leaves_workpiece(state: State, block: Block, words: Words) -> bool:
     state.waiting.flush()
     state.last = None
     text = "This move ends where only the machine knows, and is skipped. The next absolute words set the position."
-    state.log.warn("MACHINE", text, block)
+    state.log.warn("MACHINE", text, words.block)
     return True

@@ -119,58 +119,59 @@ def tool(state: State, block: Block) -> None:
             state.log.stop("TOOL", f"{number[4]} is no tool number. Give it a whole number.", block.at(number[4]))
         name = str(int(value))
     if number[1] == "DEF":
-        _define(state, rest, name, state.words(rest, _TOOL_DEF_WORDS, TOOL_WORD))
+        _define(state, name, state.words(rest, _TOOL_DEF_WORDS, TOOL_WORD))
     else:
-        _call(state, rest, name, state.words(rest, _TOOL_CALL_WORDS, TOOL_WORD))
+        _call(state, name, state.words(rest, _TOOL_CALL_WORDS, TOOL_WORD))
 
 
-def _define(state: State, block: Block, name: str, words: Words) -> None:
+def _define(state: State, name: str, words: Words) -> None:
     """TOOL DEF n L R: set a tool's radius; without R the block only names the next tool."""
     if not name:
-        state.log.stop("TOOL", "TOOL DEF needs the tool's number. Write TOOL DEF 1 L+0 R+5.", block)
+        state.log.stop("TOOL", "TOOL DEF needs the tool's number. Write TOOL DEF 1 L+0 R+5.", words.block)
     if "R" in words:
-        delta = state.length(block, words, "DR") if "DR" in words else 0.0
-        state.defined[name] = state.length(block, words, "R") + delta
+        delta = state.length(words, "DR") if "DR" in words else 0.0
+        state.defined[name] = state.length(words, "R") + delta
 
 
-def _call(state: State, block: Block, name: str, words: Words) -> None:
+def _call(state: State, name: str, words: Words) -> None:
     if "F" in words:
-        state.feed = state.tool_feed = state.length(block, words, "F")
+        state.feed = state.tool_feed = state.length(words, "F")
     if "S" in words:
-        state.speed = state.number(block, words, "S")
+        state.speed = state.number(words, "S")
         state.note_spindle()
     if not name and not words.keys() & ({"DR"} | _PLANE_OF_TOOL_AXIS.keys()):
         return
     if state.applied and not state.side:
         text = "cutcomp assumes that R0 with the tool axis alone cancels compensation where the tool is changed."
-        state.log.inform("INTERPRETED", text, block)
+        state.log.inform("INTERPRETED", text, words.block)
         state.waiting.flush()
         state.waiting.center.finish()
         state.release()
     if state.applied:
-        state.log.stop("TOOL", "The tool cannot be changed under compensation. Cancel it with R0 or DEP first.", block)
+        text = "The tool cannot be changed under compensation. Cancel it with R0 or DEP first."
+        state.log.stop("TOOL", text, words.block)
     state.waiting.flush()
     axes = sorted(words.keys() & _PLANE_OF_TOOL_AXIS.keys())
     if len(axes) > 1:
-        state.log.stop("TWICE", f"{axes[0]} and {axes[1]} are both tool axes. Keep one.", block.at(axes[1]))
+        state.log.stop("TWICE", f"{axes[0]} and {axes[1]} are both tool axes. Keep one.", words.at(axes[1]))
     if axes and _PLANE_OF_TOOL_AXIS[axes[0]] is not state.plane:
         state.plane, state.pole = _PLANE_OF_TOOL_AXIS[axes[0]], None
     state.tool = name or state.tool
     state.note_spindle()
     state.last = None
-    delta = state.length(block, words, "DR") if "DR" in words else 0.0
-    _take_radius(state, block, delta)
+    _take_radius(state, words)
 
 
-def _take_radius(state: State, block: Block, delta: float) -> None:
+def _take_radius(state: State, words: Words) -> None:
     """Set the radius of the tool in force: from the tool table if it has the tool, else from TOOL DEF, with deltas."""
+    delta = state.length(words, "DR") if "DR" in words else 0.0
     listed = state.tools.get(tool_id(state.tool))
     defined = state.defined.get(state.tool)
     if listed is not None:
         radius = listed.diameter_mm(state.unit) / 2.0
         if defined is not None and abs(radius - defined) > 0.0:
             text = "cutcomp takes radius {0} from the tool table, not radius {1} from TOOL DEF."
-            state.log.inform("TOOL", text, block, lengths=(radius, defined))
+            state.log.inform("TOOL", text, words.block, lengths=(radius, defined))
     elif state.tool == "0":
         radius = 0.0
     else:
@@ -181,9 +182,9 @@ def _take_radius(state: State, block: Block, delta: float) -> None:
             text = "The tool radius is {0} with DR. It is judged as this wide."
             if delta < -MAX_WORN_SHARE * radius:
                 text = "DR makes the tool radius {0} instead of {1}. Unless it is that worn, it cuts {2} too deep."
-                state.log.warn("TOOL", text, block.at("DR"), lengths=(state.radius, radius, -delta))
+                state.log.warn("TOOL", text, words.at("DR"), lengths=(state.radius, radius, -delta))
             else:
-                state.log.inform("TOOL", text, block.at("DR"), lengths=(state.radius,))
+                state.log.inform("TOOL", text, words.at("DR"), lengths=(state.radius,))
         state.parameters["Q108"] = state.radius / to_mm(1.0, state.unit)
 
 
@@ -194,7 +195,7 @@ def shift(state: State, block: Block) -> None:
         state.log.stop("WORD", "A datum shift needs an axis and a value. Write X+10.", block)
     for name, axis in _SHIFT_WORDS.items():
         if name in words:
-            value = state.length(block, words, name)
+            value = state.length(words, name)
             state.shift[axis] = state.shift[axis] + value if name[0] == "I" else value
     state.pole = None
     state.datum_moved = bool(state.transform)

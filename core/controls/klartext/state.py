@@ -11,7 +11,7 @@ from re import Pattern
 from typing import Final, NoReturn
 
 from core.controls.compensation.elements import Element
-from core.controls.control_run import Log, SpindleChange
+from core.controls.control_run import Log, SpindleChange, Spot
 from core.controls.control_tools import ToolTable, tool_id
 from core.controls.klartext.center_path import FeedAt, ProgrammedStep, Role
 from core.controls.klartext.corner_rounding import CornerBuffer
@@ -39,8 +39,17 @@ FEED_WORDS: Final = frozenset(("F", "FMAX", "FAUTO"))
 ROTARY_AXES: Final = frozenset("ABC")
 OTHER_AXES: Final = frozenset(f"{step}{name}" for step in ("", "I") for name in "ABCUVW")
 
-Words = dict[str, str]
-"""The words of a block by name, each with its number as written; R0, RL, RR, M3 ... are names without a number."""
+
+class Words(dict[str, str]):
+    """The words of a block by name, each with its number as written; R0, RL, RR, M3 ... are names without a number."""
+
+    def __init__(self, block: Block) -> None:
+        super().__init__()
+        self.block = block
+
+    def at(self, name: str) -> Spot:
+        """Return the place of a word, or of the block's head if there is no such word."""
+        return self.block.at(name)
 
 
 @dataclass(slots=True)
@@ -110,7 +119,7 @@ class State:
 
     def words(self, block: Block, allowed: frozenset[str], pattern: Pattern[str] = WORD) -> Words:
         """Return the block's words, all of them allowed and none twice; M words have their numbers in their names."""
-        words: Words = {}
+        words = Words(block)
         for written, number, junk in pattern.findall(block.body):
             name = joined_name(written)
             if name == "R" and number == "0":
@@ -153,18 +162,18 @@ class State:
                 code, text = "WORD", f"A {quoted(block.head)} block takes no word {quoted(written)}."
         self.log.stop(code, text, block.at(name))
 
-    def number(self, block: Block, words: Words, name: str) -> float:
+    def number(self, words: Words, name: str) -> float:
         """Return the number of a word, or the value of its formula."""
         raw = words[name]
         try:
             value = float(raw)
         except ValueError:
             if not raw or raw in "+-":
-                self.log.stop("NUMBER", f"{name} needs a number after it.", block.at(name))
-            value = self.value(raw, block, name)
+                self.log.stop("NUMBER", f"{name} needs a number after it.", words.at(name))
+            value = self.value(raw, words.block, name)
         if not -LARGEST_COORDINATE < value < LARGEST_COORDINATE:
             text = f"{name} {value:g} is too large: no machine goes beyond {LARGEST_COORDINATE:,.0f}."
-            self.log.stop("NUMBER", text, block.at(name))
+            self.log.stop("NUMBER", text, words.at(name))
         return value
 
     def value(self, formula: str, block: Block, name: str = "") -> float:
@@ -177,16 +186,16 @@ class State:
             self.log.stop("Q", value, block.at(name))
         return value
 
-    def length(self, block: Block, words: Words, name: str) -> float:
+    def length(self, words: Words, name: str) -> float:
         """Return the number of a word that is a length or a feed, in millimeters."""
-        return to_mm(self.number(block, words, name), self.unit)
+        return to_mm(self.number(words, name), self.unit)
 
     def flat(self, position: Sequence[float], plane: Plane | None = None) -> tuple[Point, float]:
         """Return a position as a point of a plane, by default the working plane, and its coordinate across it."""
         first, second, third = (self.plane if plane is None else plane).axes
         return (position[first], position[second]), position[third]
 
-    def target(self, block: Block, words: Words) -> list[float]:
+    def target(self, words: Words) -> list[float]:
         """Return the position that the block's axis words lead to."""
         position, self.lost = self.position.copy(), self.plane.axes[2] in self.at_machine_place
         for name in words:
@@ -195,9 +204,9 @@ class State:
                 if not relative:
                     self.now_known({axis})
                 elif AXIS_WORDS[name[1:]][0] == axis and name[1:] in words:
-                    self.log.stop("TWICE", f"{name} and {name[1:]} are in one block. Keep one.", block.at(name))
+                    self.log.stop("TWICE", f"{name} and {name[1:]} are in one block. Keep one.", words.at(name))
                 base = self.position[axis] if relative else self.shift[axis]
-                position[axis] = base + self.length(block, words, name)
+                position[axis] = base + self.length(words, name)
         return position
 
     def now_known(self, axes: Collection[int]) -> None:
@@ -210,32 +219,32 @@ class State:
         self.known.difference_update(axes)
         self.at_machine_place.update(axes)
 
-    def chosen_side(self, block: Block, words: Words) -> None:
+    def chosen_side(self, words: Words) -> None:
         """Take up the block's R0, RL or RR."""
         if SIDE_WORDS.keys().isdisjoint(words):
             return
         names = [name for name in SIDE_WORDS if name in words]
         if len(names) > 1:
-            self.log.stop("TWICE", f"{names[0]} and {names[1]} are in one block. Keep one.", block.at(names[1]))
+            self.log.stop("TWICE", f"{names[0]} and {names[1]} are in one block. Keep one.", words.at(names[1]))
         side = SIDE_WORDS[names[0]]
         if side and side == -(self.applied or self.side):
             text = "The side changes without R0 between. Cancel in an L block with R0 first."
-            self.log.stop("HE1", text, block.at(names[0]))
+            self.log.stop("HE1", text, words.at(names[0]))
         self.side = side
 
-    def chosen_feed(self, block: Block, words: Words) -> tuple[bool, float]:
+    def chosen_feed(self, words: Words) -> tuple[bool, float]:
         """Return rapid and feed of the block: FMAX applies to this block alone, F from here on."""
         if FEED_WORDS.isdisjoint(words):
             return False, self.feed
         names = [name for name in words if name in FEED_WORDS]
         if len(names) > 1:
-            self.log.stop("TWICE", f"{names[0]} and {names[1]} are in one block. Keep one.", block.at(names[1]))
+            self.log.stop("TWICE", f"{names[0]} and {names[1]} are in one block. Keep one.", words.at(names[1]))
         if "F" in words:
-            self.feed = self.length(block, words, "F")
+            self.feed = self.length(words, "F")
         elif "FAUTO" in words:
             self.feed = self.tool_feed
         if self.feed < 0.0:
-            self.log.stop("NUMBER", "A feed cannot be negative.", block.at("F"))
+            self.log.stop("NUMBER", "A feed cannot be negative.", words.at("F"))
         return "FMAX" in words, self.feed
 
     def push(self, step: ProgrammedStep) -> None:
