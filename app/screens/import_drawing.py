@@ -33,31 +33,28 @@ from core.controls.program_text import quoted
 from core.draw.characters import Mode
 from core.draw.view import View
 from core.geometry.piece import Line, Side
-from core.importing.contour import (
+from core.importing.contours import (
+    FIT_TOLERANCE,
+    MAX_TOLERANCE,
+    Branch,
     Contour,
+    ContourList,
+    ImportOptions,
+    contours_of,
     fit_sentence,
     fitted_contour,
+    frame_notes,
     reversed_contour,
     started_at,
     started_at_corner,
     started_at_side,
     started_at_usual_place,
     traveled_like,
-)
-from core.importing.contours import (
-    FIT_TOLERANCE,
-    MAX_TOLERANCE,
-    Branch,
-    ContourList,
-    ImportOptions,
-    contours_of,
-    frame_notes,
     with_joined,
 )
 from core.importing.drawing import Drawing as ReadDrawing
 from core.importing.drawing import DrawingError, DrawingUnit
-from core.importing.listing import Row, matching, rows_of, sentences, unit_question
-from core.importing.scene import background, contours_scene
+from core.importing.listing import Row, background, contours_scene, matching, rows_of, sentences, unit_question
 from core.importing.segments import MAX_SEGMENTS, DoesNotFitError, ImportedBlock, with_contours
 from core.pipeline.plot import Drawn, SceneSubject
 from core.program.edit import FormPlace

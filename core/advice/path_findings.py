@@ -14,7 +14,7 @@ from core.comp.best_path.best_path import BestPath
 from core.comp.best_path.separation import Separation
 from core.comp.compensated import CenterPath, Compensated
 from core.finding import Finding, Severity
-from core.geometry.path import Path, as_complex, next_in_ring
+from core.geometry.path import Path, as_complex, next_in_ring, tangents
 from core.geometry.piece import Point, Side
 from core.tolerance import GOUGE, JOINED, SMALLEST_SHOWN_LENGTH
 from core.verify.air_cuts import AirCut, air_cuts
@@ -257,12 +257,7 @@ def turning_back(surface: Path, *, closed: bool) -> tuple[Finding, ...]:
 
     Two arcs do this where scallops meet, which is fine.
     """
-    points, centers, turns = as_complex(surface.points), as_complex(surface.centers), surface.turns
-    # a line's center is its own start, so `leave` is already its direction
-    leave, arcs = points[1:] - centers, turns.nonzero()[0]
-    into, quarter = leave.copy(), 1j * turns[arcs]
-    leave[arcs] *= quarter
-    into[arcs] = quarter * (points[arcs] - centers[arcs])
+    (into, leave), turns = tangents(surface), surface.turns
     turned = leave.conj() * next_in_ring(into)
     back = (turned.real < -STRAIGHT_BACK * np.abs(turned)).nonzero()[0].tolist()
     joints = [(row, (row + 1) % len(turns)) for row in back if closed or row + 1 < len(turns)]

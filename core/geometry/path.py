@@ -131,19 +131,12 @@ class Path:
     @property
     def start_directions(self) -> Floats:
         """(n, 2) unit tangent at the start of each piece; (0, 0) for a line without length."""
-        return self._directions(self.starts)
+        return _units(tangents(self)[0])
 
     @property
     def end_directions(self) -> Floats:
         """(n, 2) unit tangent at the end of each piece; (0, 0) for a line without length."""
-        return self._directions(self.ends)
-
-    def _directions(self, at: Floats) -> Floats:
-        radial = at - self.centers
-        along = np.stack((-radial[:, 1], radial[:, 0]), axis=1) * self.turns[:, None]
-        along = np.where(self.turns[:, None] == 0, self.ends - self.starts, along)
-        size = np.hypot(along[:, 0], along[:, 1])
-        return along / np.where(size == 0.0, 1.0, size)[:, None]
+        return _units(tangents(self)[1])
 
     @property
     def boxes(self) -> Floats:
@@ -173,6 +166,25 @@ class Path:
         # rows of contiguous arrays are contiguous: nothing is copied
         keep = slice(first, last)
         return Path(self.points[first : last + 1], self.centers[keep], self.turns[keep], self.numbers[keep])
+
+
+def tangents(path: Path) -> tuple[Points, Points]:
+    """Return the (n,) directions of travel at the starts and at the ends of all pieces, not of unit length."""
+    points, centers = as_complex(path.points), as_complex(path.centers)
+    chord = points[1:] - points[:-1]
+    arcs = path.turns.nonzero()[0]
+    if not len(arcs):
+        return chord, chord
+    first, last = chord.copy(), chord
+    across = 1j * path.turns[arcs]
+    first[arcs] = across * (points[arcs] - centers[arcs])
+    last[arcs] = across * (points[arcs + 1] - centers[arcs])
+    return first, last
+
+
+def _units(directions: Points) -> Floats:
+    size = np.abs(directions)
+    return coordinates(directions / np.where(size == 0.0, 1.0, size))
 
 
 def boxes(pieces: Pieces) -> Floats:

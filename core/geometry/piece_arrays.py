@@ -195,12 +195,12 @@ def at(pieces: PieceArrays, t: Floats) -> Points:
 
 def direction(pieces: PieceArrays, t: Floats) -> Points:
     """Return the (n,) unit tangents at the fractions `t` (n,)."""
-    return by_kind(pieces.arcs, lambda: pieces.unit + 0.0 * t, lambda: _arc_direction(pieces, t))
-
-
-def _arc_direction(arc: PieceArrays, t: Floats) -> Points:
-    size = np.where(arc.radius == 0.0, 1.0, arc.radius)
-    return 1j * arc.turn * (arc.arm / size) * np.exp(1j * (arc.turn * arc.angle) * t)
+    turn, size = pieces.turn, np.where(pieces.radius == 0.0, 1.0, pieces.radius)
+    return by_kind(
+        pieces.arcs,
+        lambda: pieces.unit + 0.0 * t,
+        lambda: 1j * turn * (pieces.arm / size) * np.exp(1j * (turn * pieces.angle) * t),
+    )
 
 
 def traveled(arc: PieceArrays, directions: Points) -> Floats:

@@ -33,8 +33,7 @@ from core.importing.drawing import (
     counted,
     silent,
 )
-from core.importing.dxf_document import damaged_file, document_of, too_much, words_of
-from core.importing.dxf_tags import Scan, ScannedEntity, is_dxf
+from core.importing.dxf_document import Scan, ScannedEntity, damaged_file, document_of, is_dxf, too_much, words_of
 from core.tolerance import LARGEST_COORDINATE
 
 if TYPE_CHECKING:

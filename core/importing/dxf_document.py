@@ -1,7 +1,8 @@
-"""Checks what of a DXF file's text is whole, and reads its document with ezdxf.
+"""Checks what of a DXF file is whole by its tags, and reads its document with ezdxf.
 
-A text that breaks off is recognized by its tags, since a reader that repairs would accept it silently.  ezdxf is
-imported only when a drawing is opened.
+A text that breaks off is recognized by its tags, and their counts are compared with what was read, so that no loss goes
+unreported: a reader that repairs silently drops what it cannot place.  ezdxf is imported only when a drawing is opened.
+https://help.autodesk.com: DXF reference, "About the General DXF File Structure".
 """
 
 from __future__ import annotations
@@ -14,21 +15,306 @@ from contextlib import suppress
 from typing import TYPE_CHECKING, Final
 
 from core.importing.drawing import MAX_ENTITIES, DrawingError
-from core.importing.dxf_tags import (
-    BINARY_MARK,
-    HANDLE_CODE,
-    MARKER_CODE,
-    MARKERS_OF_ENTITY,
-    NO_HANDLE,
-    Scan,
-    scan_tags,
-    scan_text,
-    text_lines,
-)
 
 if TYPE_CHECKING:
     from ezdxf.document import Drawing as Document
     from ezdxf.lldxf.types import DXFTag
+
+from collections import Counter
+from dataclasses import dataclass, field
+from itertools import pairwise
+from typing import NamedTuple
+
+BINARY_MARK: Final = b"AutoCAD Binary DXF\r\n\x1a\x00"
+
+R12: Final = "AC1009"
+COMMENT_CODE: Final = 999
+HANDLE_CODE: Final = 5
+NO_HANDLE: Final = "0"
+"""A handle that means none: no entity may have it, but some programs write it into each."""
+MARKER_CODE: Final = 100
+"""The group code of a subclass marker, such as AcDbPolyline."""
+MARKERS_OF_ENTITY: Final = {"LWPOLYLINE": ("AcDbEntity", "AcDbPolyline"), "SPLINE": ("AcDbEntity", "AcDbSpline")}
+"""The markers without which ezdxf does not read an entity: before its common data, and before its own."""
+
+_BREAK: Final = re.compile(rb"\r\n|\r")
+
+_SECTIONS: Final = frozenset(
+    {"HEADER", "CLASSES", "TABLES", "BLOCKS", "ENTITIES", "OBJECTS", "THUMBNAILIMAGE", "ACDSDATA"}
+)
+
+_SUBORDINATE: Final = frozenset({"VERTEX", "SEQEND", "ATTRIB"})
+"""Entities that belong to the one before them: points of a POLYLINE, texts of an INSERT."""
+
+_NEEDED: Final = {
+    "LINE": (10, 20, 11, 21),
+    "CIRCLE": (10, 20, 40),
+    "ARC": (10, 20, 40, 50, 51),
+    "ELLIPSE": (10, 20, 11, 21, 40),
+    "VERTEX": (10, 20),
+    "INSERT": (2, 10, 20),
+}
+"""Group codes that an entity has exactly once: two entities run together have them twice."""
+
+_AT_MOST_ONCE: Final = {
+    "ELLIPSE": (41, 42),
+    "VERTEX": (42,),
+    "INSERT": (41, 42, 50),
+    "LWPOLYLINE": (38, 90),
+    "SPLINE": (70, 71),
+}
+
+_COUNTED: Final = {
+    "LWPOLYLINE": (("points", 90, 10), ("points", 90, 20)),
+    "SPLINE": (("knots", 72, 40), ("control points", 73, 10), ("fit points", 74, 11)),
+}
+"""Entities that state how often a group code follows: (what, code of the count, counted code)."""
+
+
+class Tag(NamedTuple):
+    """A group code with its value; `line` is the line of the group code, 0 in a binary file."""
+
+    code: int
+    value: str
+    line: int
+
+
+@dataclass(slots=True)
+class ScannedEntity:
+    """An entity in the file; `number` counts from 1 within its section or block."""
+
+    kind: str
+    line: int
+    number: int
+    paper: bool = False
+    fault: str = ""
+    """What is wrong with its group codes, empty if nothing is."""
+
+    @property
+    def where(self) -> str:
+        """Its place in words."""
+        return f"at line {self.line}" if self.line else f"that is entity {self.number}"
+
+
+@dataclass(slots=True)
+class Scan:
+    """The contents of a file by its tags.
+
+    `whole`: every section that begins ends, and the file ends with EOF.  `last_line` is the last line that was read,
+    `cut` the number of lines up to the last whole entity if the file breaks off within its entities.
+    """
+
+    whole: bool = False
+    last_line: int = 0
+    entities: list[ScannedEntity] = field(default_factory=list)
+    blocks: dict[str, list[ScannedEntity]] = field(default_factory=dict)
+    units: int = 0
+    """$INSUNITS, 0 if the file has none."""
+    version: str | None = None
+    """$ACADVER, empty if the header has none, None if the file has no header."""
+    marked: bool = False
+    """An entity has subclass markers (group code 100), which R12 does not know."""
+    unmarked: bool = False
+    """An entity lacks one of its `MARKERS_OF_ENTITY`."""
+    irregular: bool = False
+    """An entity has the handle 0, or a POLYLINE has no SEQEND."""
+    bad_line: int = 0
+    """The first line that should be a group code and is not, 0 if there is none."""
+    open_section: str = ""
+    """The section in which the file ends, empty if all sections end."""
+    cut: int = 0
+    repaired: str = ""
+    """Why the file could be read only after a repair, empty if it needed none."""
+    unknown_sections: list[str] = field(default_factory=list)
+    lost: list[ScannedEntity] = field(default_factory=list)
+    """Entities that no reader can see, because their kind or their POLYLINE is missing."""
+
+    @property
+    def becomes_r2000(self) -> bool:
+        """True if an R12 file, or one of no version, has subclass markers or entities that R12 does not have."""
+        return self.version in (None, "", R12) and (self.marked or self.unmarked)
+
+    @property
+    def first_fault(self) -> ScannedEntity | None:
+        """The first entity whose group codes cannot be right."""
+        every = (entity for entities in (self.lost, *self.blocks.values(), self.entities) for entity in entities)
+        return next((entity for entity in every if entity.fault), None)
+
+
+def text_lines(data: bytes) -> list[bytes]:
+    """Return the lines of a text file, with any kind of line end."""
+    lines = _BREAK.sub(b"\n", data).removeprefix(b"\xef\xbb\xbf").split(b"\n")
+    if lines and not lines[-1].strip():
+        lines.pop()
+    return lines
+
+
+def is_dxf(data: bytes) -> bool:
+    """True if the data begins like a DXF file: with its binary mark, or with a SECTION after comments."""
+    if data.startswith(BINARY_MARK):
+        return True
+    first = next((tag for tag in _tags(text_lines(data[:65536]), Scan()) if tag.code != COMMENT_CODE), None)
+    return first is not None and first[:2] == (0, "SECTION")
+
+
+def scan_text(data: bytes) -> Scan:
+    """Scan a text file."""
+    lines = text_lines(data)
+    scan = Scan(last_line=len(lines))
+    _Scanner(scan).run(_tags(lines, scan))
+    return scan
+
+
+def scan_tags(tags: Iterable[tuple[int, object]]) -> Scan:
+    """Scan the tags of a binary file."""
+    scan = Scan()
+    _Scanner(scan).run(Tag(code, str(value), 0) for code, value in tags if code != COMMENT_CODE)
+    return scan
+
+
+def _tags(lines: list[bytes], scan: Scan) -> Iterator[Tag]:
+    """Yield the tags up to EOF, or up to the first line that should be a group code and is not."""
+    for row in range(0, len(lines) - 1, 2):
+        try:
+            code = int(lines[row])
+        except ValueError:
+            scan.bad_line = row + 1
+            return
+        # the name of an entity may have blanks around it
+        value = lines[row + 1].strip().decode("latin-1")
+        yield Tag(code, value, row + 1)
+        if (code, value) == (0, "EOF"):
+            return
+
+
+@dataclass(slots=True)
+class _Scanner:
+    """Walks through the tags, entity by entity, and keeps track of the section and the block."""
+
+    scan: Scan
+    section: str = ""
+    block: str | None = None
+    entity: ScannedEntity | None = None
+    open_polyline: bool = False
+
+    def run(self, tags: Iterator[Tag]) -> None:
+        marker = Tag(-1, "", 0)
+        body: list[Tag] = []
+        for tag in tags:
+            if tag.code != 0:
+                body.append(tag)
+                continue
+            self.close(marker, body)
+            marker, body = tag, []
+            if tag.value == "EOF":
+                self.scan.whole = not self.section
+                self.scan.open_section = self.section
+                return
+            self.open(tag)
+        # the last entity may have lost something: only those before it are whole
+        self.scan.open_section = self.section
+        if self.section in ("ENTITIES", "BLOCKS"):
+            self.scan.cut = marker.line - 1 if marker.line else 0
+            self._drop_last(marker)
+
+    def _drop_last(self, marker: Tag) -> None:
+        entities = self.scan.entities if self.block is None else self.scan.blocks.get(self.block, [])
+        if self.section == "ENTITIES" and entities and (self.open_polyline or entities[-1].line == marker.line):
+            self.scan.cut = entities[-1].line - 1
+            entities.pop()
+
+    def open(self, tag: Tag) -> None:
+        """Begin a section, a block or an entity at its marker."""
+        name = tag.value
+        if self.open_polyline and name not in _SUBORDINATE:
+            self.scan.irregular, self.open_polyline = True, False
+        if name == "SECTION":
+            return
+        if name == "ENDSEC":
+            self.section, self.block = "", None
+        elif name in ("BLOCK", "ENDBLK"):
+            self.block = None
+        elif name in _SUBORDINATE:
+            if name == "SEQEND":
+                self.open_polyline = False
+            elif name == "VERTEX" and not self.open_polyline:
+                number = len(self.scan.entities) + 1
+                self.scan.lost.append(ScannedEntity(name, tag.line, number, fault="belongs to no POLYLINE"))
+        elif self.section == "ENTITIES" or self.block is not None:
+            self._add(tag)
+        elif self.section == "BLOCKS":
+            # the beginning of its block is missing
+            self.scan.blocks.setdefault("", []).append(
+                ScannedEntity(name, tag.line, 1, fault="stands outside of any block")
+            )
+
+    def _add(self, tag: Tag) -> None:
+        entities = self.scan.entities if self.block is None else self.scan.blocks[self.block]
+        self.entity = ScannedEntity(tag.value, tag.line, len(entities) + 1)
+        self.open_polyline = tag.value == "POLYLINE"
+        entities.append(self.entity)
+
+    def close(self, marker: Tag, body: list[Tag]) -> None:
+        """Process a marker once all its tags are known."""
+        if marker.code:
+            return
+        if marker.value == "SECTION":
+            self.section = next((tag.value for tag in body if tag.code == 2), "")
+            named = [tag for tag in body if tag.code != COMMENT_CODE]
+            if self.section == "HEADER":
+                self._header(body)
+            elif self.section in ("ENTITIES", "BLOCKS") and len(named) > 1:
+                self.scan.lost.append(ScannedEntity("entity", named[1].line, 1, fault="has no kind (group code 0)"))
+            elif self.section not in _SECTIONS:
+                self.scan.unknown_sections.append(self.section)
+            return
+        self.scan.irregular |= any(tag[:2] == (HANDLE_CODE, NO_HANDLE) for tag in body)
+        if marker.value == "BLOCK" and self.section == "BLOCKS":
+            self.block = next((tag.value for tag in body if tag.code == 2), "").lower()
+            self.scan.blocks.setdefault(self.block, [])
+        elif self.entity is not None and (marker.value in _SUBORDINATE or marker.line == self.entity.line):
+            self._check(marker.value, body)
+
+    def _header(self, body: list[Tag]) -> None:
+        self.scan.version = ""
+        for variable, value in pairwise(body):
+            if variable[:2] == (9, "$ACADVER"):
+                self.scan.version = value.value
+            if variable[:2] == (9, "$INSUNITS") and value.code == 70 and value.value.lstrip("-").isdecimal():
+                self.scan.units = int(value.value)
+
+    def _check(self, kind: str, body: list[Tag]) -> None:
+        assert self.entity is not None
+        counts = Counter(tag.code for tag in body)
+        self.scan.marked |= MARKER_CODE in counts
+        self.scan.unmarked |= any(
+            (MARKER_CODE, name) not in (tag[:2] for tag in body) for name in MARKERS_OF_ENTITY.get(kind, ())
+        )
+        if kind == self.entity.kind and any(tag.code == 67 and tag.value == "1" for tag in body):
+            self.entity.paper = True
+        fault = _fault(kind, counts, body)
+        if fault and not self.entity.fault:
+            self.entity.fault = fault
+
+
+def _fault(kind: str, counts: Counter[int], body: list[Tag]) -> str:
+    """Return what is wrong with an entity's group codes, empty if they can be right."""
+    for code in _NEEDED.get(kind, ()):
+        if counts[code] != 1:
+            return f"has group code {code} {_times(counts[code])}"
+    for code in _AT_MOST_ONCE.get(kind, ()):
+        if counts[code] > 1:
+            return f"has group code {code} {_times(counts[code])}"
+    for what, code, counted in _COUNTED.get(kind, ()):
+        stated = next((tag.value for tag in body if tag.code == code), None)
+        if stated is not None and (not stated.isdecimal() or int(stated) != counts[counted]):
+            return f"names {stated} {what} and has {counts[counted]}"
+    return ""
+
+
+def _times(count: int) -> str:
+    return "missing" if not count else f"{count} times"
+
 
 R2000: Final = "AC1015"
 LAYER_CODE: Final = 8

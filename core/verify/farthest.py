@@ -21,8 +21,7 @@ from core.geometry.nearby import changes
 from core.geometry.path import Floats, Points, Rows
 from core.geometry.piece_arrays import PieceArrays, at, fraction
 from core.tolerance import ON_PATH
-from core.verify.intervals import Intervals
-from core.verify.pairs import Pairs, nearest
+from core.verify.pairs import Intervals, Pairs, nearest
 
 DISTANCE_TOLERANCE: Final = 1e-8
 """Millimeters: a largest distance counts as known once its bounds are this close."""

@@ -13,8 +13,7 @@ from core.geometry.nearby import changes
 from core.geometry.path import Floats, Path, Rows, coordinates
 from core.geometry.piece_arrays import PieceArrays, at, blocks, fraction
 from core.tolerance import GOUGE, JOINED, ON_PATH
-from core.verify.intervals import NO_INTERVALS, Intervals, Parts, joined, merged, within
-from core.verify.pairs import Pairs, measured, uneven_slack
+from core.verify.pairs import NO_INTERVALS, Intervals, Pairs, Parts, joined, measured, merged, uneven_slack, within
 from core.verify.verdict import Approach, Gouge
 
 PAIRS_AT_A_TIME: Final = 2_000

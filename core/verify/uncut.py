@@ -14,8 +14,7 @@ from core.geometry.piece import Side, point_of
 from core.geometry.piece_arrays import PieceArrays, at, blocks, fraction
 from core.tolerance import CLOSED, ON_PATH, STOCK
 from core.verify.farthest import farthest
-from core.verify.intervals import Intervals, within
-from core.verify.pairs import Pairs, concentric, covering, nearest, pairs_of, rounding_of
+from core.verify.pairs import Intervals, Pairs, concentric, covering, nearest, pairs_of, rounding_of, within
 from core.verify.verdict import Uncut
 
 MAX_POINT_LENGTH: Final = 1e-6

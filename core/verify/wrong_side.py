@@ -20,8 +20,7 @@ from core.geometry.piece_arrays import BLOCK_PAIRS, PieceArrays, at, direction, 
 from core.tolerance import GOUGE, JOINED, ON_PATH
 from core.verify.farthest import DISTANCE_TOLERANCE, farthest
 from core.verify.gouge import Gouging, approaches
-from core.verify.intervals import NO_INTERVALS, Intervals, merged
-from core.verify.pairs import Nearest, Pairs, keeping, nearest
+from core.verify.pairs import NO_INTERVALS, Intervals, Nearest, Pairs, keeping, merged, nearest
 from core.verify.self_crossings import SelfCrossings, at_joints
 
 MIN_SIDE_SINE: Final = 1e-6

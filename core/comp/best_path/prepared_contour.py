@@ -13,7 +13,7 @@ from core.finding import Finding
 from core.geometry.distance import distance
 from core.geometry.intersect import Meeting, meet
 from core.geometry.nearby import BoxTree, near_pairs, near_pairs_within, point_boxes
-from core.geometry.path import EMPTY, Flags, Floats, Path, Points, Rows, as_complex, coordinates, next_in_ring
+from core.geometry.path import EMPTY, Flags, Floats, Path, Points, Rows, as_complex, coordinates, next_in_ring, tangents
 from core.geometry.piece_arrays import PieceArrays, even_centers, piece_arrays
 from core.tolerance import CLEAR, JOINED, ON_PATH
 
@@ -201,20 +201,6 @@ def _tangent_and_counter_turning(path: Path, swept: Floats, joint: Floats) -> Fl
     tangent &= path.turns * next_in_ring(path.turns) < 0
     tangent &= np.maximum(swept, next_in_ring(swept)) < NOT_WHOLE_TURN
     return tangent
-
-
-def tangents(path: Path) -> tuple[Points, Points]:
-    """Return the (n,) directions of travel at the starts and at the ends of all pieces, not of unit length."""
-    points, centers = as_complex(path.points), as_complex(path.centers)
-    chord = points[1:] - points[:-1]
-    arcs = path.turns.nonzero()[0]
-    if not len(arcs):
-        return chord, chord
-    first, last = chord.copy(), chord
-    across = 1j * path.turns[arcs]
-    first[arcs] = across * (points[arcs] - centers[arcs])
-    last[arcs] = across * (points[arcs + 1] - centers[arcs])
-    return first, last
 
 
 def _at_joint(path: Path, i: Rows, j: Rows, at: Points) -> Flags:

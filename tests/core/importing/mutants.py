@@ -14,7 +14,7 @@ from ezdxf.math import BSpline
 from core.importing.contours import ImportOptions, contours_of
 from core.importing.drawing import Drawing, DrawingError, DrawingUnit
 from core.importing.dxf import read_dxf
-from core.importing.dxf_tags import BINARY_MARK
+from core.importing.dxf_document import BINARY_MARK
 from tests.core.importing.drawings import block, circle, drawing_file, dxf, square
 
 TIME_LIMIT = 60.0

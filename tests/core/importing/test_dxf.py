@@ -11,8 +11,7 @@ import pytest
 from ezdxf.filemanagement import new as ezdxf_new
 
 from core.geometry.piece import Line
-from core.importing.contour import fit_sentence, fitted_contour
-from core.importing.contours import ContourList, ImportOptions, contours_of
+from core.importing.contours import ContourList, ImportOptions, contours_of, fit_sentence, fitted_contour
 from core.importing.drawing import Drawing, DrawingError, DrawingUnit
 from core.importing.dxf import read_dxf
 from core.importing.listing import sentences, unit_question

@@ -5,8 +5,7 @@ from __future__ import annotations
 from time import process_time
 
 from core.draw.scene import Style, Symbol
-from core.importing.listing import rows_of, table
-from core.importing.scene import background, contours_scene
+from core.importing.listing import background, contours_scene, rows_of, table
 from core.units import Unit
 from tests.core.importing.drawings import circle_of_lines, dxf, listed, square
 

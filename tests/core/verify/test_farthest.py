@@ -12,8 +12,7 @@ from core.geometry.piece import Arc, Turn
 from core.geometry.piece_arrays import piece_arrays
 from core.verify import farthest as module
 from core.verify.farthest import farthest
-from core.verify.intervals import Intervals
-from core.verify.pairs import pairs_of, rounding_of
+from core.verify.pairs import Intervals, pairs_of, rounding_of
 from tests.core.verify.shapes import lines
 
 

@@ -2,20 +2,267 @@
 
 The first step that applies is taken, in this order: PARALLEL, a circle without a choice, a LINE's heading, a joint, a
 circle, the side of a POINT at DISTANCE, the side of an OFFSET, a LINE along an axis.
+
+The circle of an ARC follows from three conditions on its center (x, y) and its signed radius rho.  A typed center or
+radius, a known joint with a known heading, a line that the circle touches, and a line on which it ends at a known
+heading give conditions linear in (x, y, rho).  A known point, a circle that it touches, and a point to which it is tied
+give |c - A|^2 = (rho + v)^2 + u^2; two of these differ by a linear condition.  Two linear conditions and one other
+therefore leave one quadratic equation: at most two circles.
 """
 
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator
-from math import dist, pi
-from typing import Final
+from math import cos, dist, hypot, pi, sin, sqrt
+from typing import Final, NamedTuple
 
-from core.geometry.oriented import OrientedLine, headings_at_distances, meeting
+from core.geometry.oriented import Locus, OrientedLine, direction, headings_at_distances, meeting, normal
 from core.geometry.piece import Point
 from core.program.solve.run import reasons
-from core.program.solve.run.branch import Branch, DeadEnd
-from core.program.solve.run.circle import Circles, circles
-from core.tolerance import JOINED
+from core.program.solve.run.branch import Anchor, Branch, DeadEnd
+from core.tolerance import ARC_RADII, GRAZE, JOINED, MIN_INDEPENDENT_SINE
+
+Point3 = tuple[float, float, float]
+"""x, y and rho."""
+
+Row = tuple[float, float, float, float]
+"""(a, b, e, f): the condition a x + b y + e rho = f, or the number a x + b y + e rho - f."""
+
+ORIGIN: Final = (0.0, 0.0, 0.0)
+AXES: Final = ((1.0, 0.0, 0.0), (0.0, 1.0, 0.0), (0.0, 0.0, 1.0))
+
+VANISHING_COEFFICIENT: Final = 1e-9
+"""A coefficient as small as this is zero, where the others of its condition are about 1."""
+
+
+class Quadric(NamedTuple):
+    """The condition first^2 + second^2 - less^2 = square on the numbers of three rows."""
+
+    first: Row
+    second: Row
+    square: float
+    less: Row = (0.0, 0.0, 0.0, 0.0)
+
+    def at(self, point: Point3) -> float:
+        """Return the left side less the right side of the equation."""
+        u, v, w = (_dot(row, point) - row[3] for row in (self.first, self.second, self.less))
+        return u * u + v * v - w * w - self.square
+
+    def slope(self, point: Point3, along: Point3) -> float:
+        """Return the derivative of `at` in a direction."""
+        rows = (self.first, self.second, self.less)
+        u, v, w = ((_dot(row, point) - row[3]) * _dot(row, along) for row in rows)
+        return 2.0 * (u + v - w)
+
+    def curvature(self, along: Point3) -> float:
+        """Return half of the second derivative of `at` in a direction."""
+        u, v, w = (_dot(row, along) for row in (self.first, self.second, self.less))
+        return u * u + v * v - w * w
+
+
+class Circles(NamedTuple):
+    """The circles (center, rho) that fit, in a fixed order; `grazing` if two have merged into one."""
+
+    fitting: tuple[tuple[Point, float], ...]
+    grazing: bool = False
+
+
+def circles(branch: Branch, index: int) -> Circles | None:
+    """Return the circles of arc `index`; None if fewer than three conditions are independent.
+
+    Two circles are ordered along the cross product of the two linear conditions, whose sense does not depend on the
+    numbers.  If both have the same radius, they are ordered along the heading of a neighboring line instead; without
+    one, the circle left of the vector between the two known points comes first.
+    """
+    origin = branch.run.start
+    rows, quadrics = _conditions(branch, index, origin)
+    cones = [quadric for quadric in quadrics if any(quadric.less)]
+    rows += [_difference(cones[0], cone) for cone in cones[1:]]
+    basis = _independent(rows)
+    if len(basis) == 3:
+        x, y, rho = _solved(basis)
+        return Circles((((x + origin[0], y + origin[1]), rho),))
+    if len(basis) < 2 or not quadrics:
+        return None
+    across = _cross(basis[0], basis[1])
+    along = _moved(ORIGIN, 1.0 / hypot(*across), across)
+    if abs(along[2]) < VANISHING_COEFFICIENT:
+        along = _agreed_sense(branch, index, along, cones)
+    # the point nearest to the origin
+    at = _solved([basis[0], basis[1], (*along, 0.0)])
+    for quadric in quadrics:
+        roots = _roots(quadric, at, along)
+        if roots is not None:
+            values, grazing = roots
+            points = (_moved(at, value, along) for value in values)
+            return Circles(tuple(((x + origin[0], y + origin[1]), rho) for x, y, rho in points), grazing)
+    return None
+
+
+def _agreed_sense(branch: Branch, index: int, along: Point3, cones: list[Quadric]) -> Point3:
+    """Return `along` or its opposite: the sense in which two centers with the same radius are ordered."""
+    for neighbor in (index - 1, index + 1):
+        if 0 <= neighbor < len(branch.run.elements) and not branch.run.elements[neighbor].turn:
+            heading = branch.heading_in[neighbor]
+            if heading is not None:
+                tx, ty = direction(heading)
+                ahead = tx * along[0] + ty * along[1]
+                return along if ahead >= 0.0 else _moved(ORIGIN, -1.0, along)
+    if len(cones) >= 2:
+        vector = (cones[1].first[3] - cones[0].first[3], cones[1].second[3] - cones[0].second[3])
+        left = vector[0] * along[1] - vector[1] * along[0]
+        # left of the vector first: the sense leads from left to right
+        return along if left <= 0.0 else _moved(ORIGIN, -1.0, along)
+    return along
+
+
+def _conditions(branch: Branch, index: int, origin: Point) -> tuple[list[Row], list[Quadric]]:
+    """Return all linear and quadratic conditions, relative to `origin`."""
+    rows: list[Row] = []
+    quadrics: list[Quadric] = []
+    x, y, rho = branch.center_x[index], branch.center_y[index], branch.rho[index]
+    if x is not None:
+        rows.append((1.0, 0.0, 0.0, x - origin[0]))
+    if y is not None:
+        rows.append((0.0, 1.0, 0.0, y - origin[1]))
+    if rho is not None:
+        rows.append((0.0, 0.0, 1.0, rho))
+    at_start = _at_joint(branch, index, branch.heading_in[index], branch.arriving_linked(index), origin)
+    at_end = _at_joint(branch, index + 1, branch.heading_out[index], branch.departing_linked(index + 1), origin)
+    for condition in (*at_start, *at_end, *_swept(branch, index, origin)):
+        if isinstance(condition, Quadric):
+            quadrics.append(condition)
+        else:
+            rows.append(condition)
+    point = branch.run.elements[index].point
+    if point is not None:
+        quadrics.append(_cone(Anchor(point, 0.0, 0.0), origin))
+    return rows, quadrics
+
+
+def _at_joint(
+    branch: Branch, joint: int, heading: float | None, anchors: Iterator[Anchor], origin: Point
+) -> Iterator[Row | Quadric]:  # fmt: skip
+    """Yield the conditions that the circle passes through a joint."""
+    if heading is None:
+        yield from (_cone(anchor, origin) for anchor in anchors)
+        return
+    point, (nx, ny) = branch.joint(joint), normal(heading)
+    # the joint is at c - rho n
+    coordinates = (1.0, 0.0, -nx, 0.0), (0.0, 1.0, -ny, 0.0)
+    for locus in branch.loci(joint) if point is None else (point,):
+        yield from _on_locus(coordinates, locus, origin)
+
+
+def _swept(branch: Branch, index: int, origin: Point) -> Iterator[Row | Quadric]:
+    """Yield the conditions that SWEEP ANGLE rotates one joint into the other, if no start heading is known."""
+    sweep = branch.sweep[index]
+    if sweep is None or branch.heading_in[index] is not None:
+        return
+    angle = branch.run.elements[index].turn * sweep
+    for start, end, turned in ((index, index + 1, angle), (index + 1, index, -angle)):
+        first, second = branch.joint(start), branch.joint(end)
+        if first is None:
+            continue
+        c, s = cos(turned), sin(turned)
+        x, y = first[0] - origin[0], first[1] - origin[1]
+        # the first joint rotated about c is at (1 - R) c + R first
+        coordinates = (1.0 - c, s, 0.0, s * y - c * x), (-s, 1.0 - c, 0.0, -s * x - c * y)
+        for locus in branch.loci(end) if second is None else (second,):
+            yield from _on_locus(coordinates, locus, origin)
+        if second is not None:
+            return
+
+
+def _cone(anchor: Anchor, origin: Point) -> Quadric:
+    """Return the condition that ties the center to A: |c - A|^2 - (left + rho)^2 = along^2."""
+    x, y = anchor.at[0] - origin[0], anchor.at[1] - origin[1]
+    return Quadric((1.0, 0.0, 0.0, x), (0.0, 1.0, 0.0, y), anchor.along**2, (0.0, 0.0, 1.0, -anchor.left))
+
+
+def _on_locus(coordinates: tuple[Row, Row], locus: Locus | Point, origin: Point) -> Iterator[Row | Quadric]:
+    """Yield the conditions that a joint lies on the locus; the numbers of two rows are the joint's coordinates."""
+    first, second = coordinates
+    if isinstance(locus, OrientedLine):
+        nx, ny = locus.normal
+        a, b, e, f = (nx * x + ny * y for x, y in zip(first, second, strict=True))
+        yield a, b, e, f + locus.offset - nx * origin[0] - ny * origin[1]
+        return
+    at = locus if isinstance(locus, tuple) else locus.center
+    off = (*first[:3], first[3] + at[0] - origin[0]), (*second[:3], second[3] + at[1] - origin[1])
+    if isinstance(locus, tuple):
+        yield from off
+    else:
+        yield Quadric(*off, locus.radius**2)
+
+
+def _difference(first: Quadric, second: Quadric) -> Row:
+    """Return the linear condition by which two cones differ."""
+    a, b, e = (first.slope(ORIGIN, axis) - second.slope(ORIGIN, axis) for axis in AXES)
+    return a, b, e, second.at(ORIGIN) - first.at(ORIGIN)
+
+
+def _independent(rows: list[Row]) -> list[Row]:
+    """Return at most three independent rows, scaled to unit length; the clearly independent ones come first."""
+    basis: list[Row] = []
+    frame: list[Point3] = []
+    for least in (0.02, MIN_INDEPENDENT_SINE):
+        for row in rows:
+            size = hypot(row[0], row[1], row[2])
+            if len(basis) == 3 or size < VANISHING_COEFFICIENT:
+                continue
+            a, b, e, f = (value / size for value in row)
+            rest = (a, b, e)
+            for axis in frame:
+                rest = _moved(rest, -_dot((a, b, e), axis), axis)
+            left = hypot(*rest)
+            if left > least:
+                frame.append(_moved(ORIGIN, 1.0 / left, rest))
+                basis.append((a, b, e, f))
+    return basis
+
+
+def _dot(row: Row | Point3, point: Point3) -> float:
+    return row[0] * point[0] + row[1] * point[1] + row[2] * point[2]
+
+
+def _moved(point: Point3, by: float, along: Point3) -> Point3:
+    return point[0] + by * along[0], point[1] + by * along[1], point[2] + by * along[2]
+
+
+def _cross(first: Row, second: Row) -> Point3:
+    (a, b, c, _), (d, e, f, _) = first, second
+    return b * f - c * e, c * d - a * f, a * e - b * d
+
+
+def _solved(basis: list[Row]) -> Point3:
+    """Solve three linear conditions by Cramer's rule."""
+    first, second, third = basis
+    normals = _cross(second, third), _cross(third, first), _cross(first, second)
+    whole, point = _dot(first, normals[0]), ORIGIN
+    for row, across in zip(basis, normals, strict=True):
+        point = _moved(point, row[3] / whole, across)
+    return point
+
+
+def _roots(quadric: Quadric, at: Point3, along: Point3) -> tuple[tuple[float, ...], bool] | None:
+    """Intersect a line in (x, y, rho) with a quadric: the roots, and True if two merge; None if the line lies on it."""
+    size = max(1.0, hypot(*at), abs(quadric.at(ORIGIN)) ** 0.5)
+    a, b, c = quadric.curvature(along), quadric.slope(at, along), quadric.at(at)
+    if abs(a) < VANISHING_COEFFICIENT:
+        if abs(b) < VANISHING_COEFFICIENT * size:
+            return None if abs(c) < ARC_RADII * size else ((), False)
+        return (-c / b,), False
+    middle, height = -b / (2.0 * a), c - b * b / (4.0 * a)
+    reach = 2.0 * hypot(*_moved(at, middle, along))
+    miss = height if a > 0.0 else -height
+    if -GRAZE * reach <= miss <= ARC_RADII * reach:
+        return (middle,), True
+    if miss > 0.0:
+        return (), False
+    half = sqrt(-height / a)
+    return (middle - half, middle + half), False
+
 
 Ways = list[Branch]
 Step = Callable[[Branch], Ways | None]
