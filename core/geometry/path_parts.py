@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterable, Sequence
 from dataclasses import replace
 from typing import Final, NamedTuple
 
@@ -9,7 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from core.geometry.path import EMPTY, Floats, Path, Points, Rows, as_complex, coordinates
-from core.geometry.piece import Piece, Point, point_of
+from core.geometry.piece import Line, Piece, Point, point_of
 
 
 class PartEnds(NamedTuple):
@@ -67,6 +68,19 @@ def parts_between(surface: Path, wanted: PartEnds) -> PathParts:
     in_part[tails[:-1]] = False
     numbers = surface.numbers[rows[:-1]]
     return PathParts(Path(coordinates(points), coordinates(centers[:-1]), turns[:-1], numbers), in_part)
+
+
+def parts_of(chains: Iterable[Sequence[Piece]]) -> PathParts:
+    """Return chains of pieces, each joined, as parts of one path."""
+    pieces: list[Piece] = []
+    in_part: list[bool] = []
+    for chain in chains:
+        if pieces:
+            pieces.append(Line(pieces[-1].end, chain[0].start))
+            in_part.append(False)
+        pieces += chain
+        in_part += [True] * len(chain)
+    return PathParts(Path.from_pieces(pieces), np.array(in_part, np.bool_))
 
 
 def single_pieces(path: Path, rows: NDArray[np.intp]) -> PathParts:

@@ -16,6 +16,7 @@ import numpy as np
 
 from core.draw.scene import Layer, Mark, Scene, Style, Symbol
 from core.geometry.path import Path
+from core.geometry.path_parts import parts_of
 from core.geometry.piece import Line, Piece, Point
 from core.importing.contours import Contour, ContourKind, ContourList, fit_sentence
 from core.importing.drawing import BSpline, Drawing, EllipseArc, Shape, counted
@@ -196,17 +197,8 @@ MAX_STARTS: Final = 30
 def background(contours: Sequence[Contour]) -> Layer:
     """Return all contours of a list as one dim layer, the same for every choice."""
     boxed = sum(len(contour.pieces) for contour in contours) > MAX_PIECES
-    pieces: list[Piece] = []
-    drawn: list[bool] = []
-    for contour in contours:
-        outline = _outline(contour) if boxed else contour.pieces
-        if pieces:
-            # the line from the contour before is not drawn
-            pieces.append(Line(pieces[-1].end, outline[0].start))
-            drawn.append(False)
-        pieces += outline
-        drawn += [True] * len(outline)
-    return Layer(Path.from_pieces(pieces), Style.RAPID, dashed=True, drawn=np.array(drawn, dtype=bool))
+    outlines = parts_of(_outline(contour) if boxed else contour.pieces for contour in contours)
+    return Layer(outlines.path, Style.RAPID, dashed=True, drawn=outlines.in_part)
 
 
 def contours_scene(dim: Layer, chosen: Iterable[Contour], unit: Unit) -> Scene:

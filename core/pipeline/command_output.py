@@ -10,7 +10,7 @@ from core.advice.lookahead_table import Row, Table
 from core.advice.path_findings import nearest_place
 from core.finding import Finding
 from core.geometry.path import Path
-from core.geometry.piece import Point
+from core.geometry.piece import Arc, Point
 from core.pipeline.derived import Derived, DerivedBlock
 from core.program.fields import form_of
 from core.program.model import ArcSegment, Relative, Unread
@@ -132,16 +132,14 @@ def _block_moves(block: DerivedBlock, unit: Unit) -> Iterator[Document]:
 
 
 def _moves(path: Path, part: str, unit: Unit) -> Iterator[Document]:
-    points, centers, turns, numbers = (
-        array.tolist() for array in (path.points, path.centers, path.turns, path.numbers)
-    )
-    for row, turn in enumerate(turns):
-        (x0, y0), (x, y) = points[row], points[row + 1]
+    for piece, number in zip(path, path.numbers.tolist(), strict=True):
+        (x0, y0), (x, y) = piece.start, piece.end
         ends = {"x0": from_mm(x0, unit), "y0": from_mm(y0, unit), "x": from_mm(x, unit), "y": from_mm(y, unit)}
-        move = {"type": "arc" if turn else "line", "part": part, "segment": segment_number(numbers[row]), **ends}
-        if turn:
-            cx, cy = centers[row]
-            move |= {"cx": from_mm(cx, unit), "cy": from_mm(cy, unit), "ccw": turn > 0}
+        kind = "arc" if isinstance(piece, Arc) else "line"
+        move = {"type": kind, "part": part, "segment": segment_number(number), **ends}
+        if isinstance(piece, Arc):
+            cx, cy = piece.center
+            move |= {"cx": from_mm(cx, unit), "cy": from_mm(cy, unit), "ccw": piece.turn > 0}
         yield move
 
 

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
-from itertools import pairwise
 from math import hypot
 from typing import Final, NamedTuple
 
@@ -32,8 +31,8 @@ from core.draw.scene import (
 from core.draw.view import CELL_HEIGHT, View
 from core.geometry.distance import distance
 from core.geometry.path import EMPTY, Path, as_complex, point_of_row
-from core.geometry.path_parts import NO_PARTS, PartEnds, PathParts, parts_between, single_pieces
-from core.geometry.piece import Line, Piece, Point, Side
+from core.geometry.path_parts import NO_PARTS, PartEnds, PathParts, parts_between, parts_of, single_pieces
+from core.geometry.piece import Piece, Point, Side
 from core.geometry.piece_arrays import piece_arrays
 from core.output.dxf import dxf
 from core.output.svg import svg
@@ -94,7 +93,7 @@ def block_scene(block: DerivedBlock, segment: int | None, unit: Unit, row: Row |
         surface,
         unit=unit,
         sketches=_sketches(block),
-        untaken=_apart([piece for pieces in untaken_pieces(solved, segment or 0) for piece in pieces]),
+        untaken=parts_of([piece] for pieces in untaken_pieces(solved, segment or 0) for piece in pieces),
         path=first.path,
         further=[loop.path for loop in loops[1:]],
         leads=[lead for loop in loops for lead in (loop.lead_in, loop.lead_out)],
@@ -282,18 +281,7 @@ def _sketches(block: DerivedBlock) -> PathParts:
             pieces += (answers or run.sketch) if run.first == segment.number else ()
         else:
             pieces += segment.choices or ((segment.sketch,) if segment.sketch is not None else ())
-    return _apart(pieces)
-
-
-def _apart(pieces: Sequence[Piece]) -> PathParts:
-    """Return pieces that need not join as parts of one path."""
-    if not pieces:
-        return NO_PARTS
-    # a line that is not drawn leads from each piece to the next
-    parts = [part for piece, following in pairwise(pieces) for part in (piece, Line(piece.end, following.start))] + [
-        pieces[-1]
-    ]
-    return PathParts(Path.from_pieces(parts), np.arange(len(parts)) % 2 == 0)
+    return parts_of([piece] for piece in pieces)
 
 
 def _deleted(control: Compensated) -> PathParts:

@@ -12,7 +12,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 from itertools import pairwise
 from math import inf
-from typing import Final
+from typing import Final, NamedTuple
 
 import numpy as np
 
@@ -42,8 +42,7 @@ LEAST_SHARE: Final = 1e-3
 """A span is not divided closer to its ends than this share of it."""
 
 
-@dataclass(frozen=True, eq=False, slots=True)
-class Farthest:
+class Farthest(NamedTuple):
     """(k,) for each interval: the place, in length traveled, that is farthest from the other path, its point, its
     distance and the first piece of the other path nearest to it."""
 
@@ -78,8 +77,7 @@ def farthest(pairs: Pairs, intervals: Intervals, most: float = inf) -> Farthest:
     begins = changes((index[1] - index[0] + 1).cumsum() // BAND_PIECES).tolist()
     edges = [0, *begins[1:], len(intervals)]
     batches = [_farthest(pairs, intervals.keep(slice(*rows)), most) for rows in pairwise(edges)]
-    columns = zip(*((far.place, far.point, far.apart, far.near) for far in batches), strict=True)
-    return Farthest(*(np.concatenate(column) for column in columns))
+    return Farthest._make(map(np.concatenate, zip(*batches, strict=True)))
 
 
 def _farthest(pairs: Pairs, intervals: Intervals, most: float) -> Farthest:

@@ -8,7 +8,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import dataclass
 from math import tau, ulp
-from typing import Final
+from typing import Final, NamedTuple
 
 import numpy as np
 
@@ -225,8 +225,7 @@ NO_INTERVALS = Intervals(np.zeros(0), np.zeros(0))
 """No part of a path."""
 
 
-@dataclass(frozen=True, eq=False, slots=True)
-class Parts:
+class Parts(NamedTuple):
     """m parts of pieces: lengths traveled at both ends and at a place between, the distance there, the pair's row."""
 
     first: Floats
@@ -261,9 +260,10 @@ def _within(pairs: Pairs, rows: Rows, limit: Floats) -> Parts:
 
 def joined(batches: Sequence[Parts]) -> Parts:
     """Concatenate these parts."""
-    columns = [[part.first, part.last, part.middle, part.apart] for part in batches]
-    first, last, middle, apart = np.concatenate(columns, axis=1) if batches else np.zeros((4, 0))
-    return Parts(first, last, middle, apart, np.concatenate((np.zeros(0, np.intp), *(part.pair for part in batches))))
+    none = np.zeros(0)
+    return Parts._make(
+        map(np.concatenate, zip(Parts(none, none, none, none, np.zeros(0, np.intp)), *batches, strict=True))
+    )
 
 
 def merged(first: Floats, last: Floats) -> Intervals:

@@ -10,7 +10,7 @@ points where slices begin and end; points within JOINED of each other on a piece
 from __future__ import annotations
 
 from collections.abc import Iterator
-from dataclasses import dataclass, fields, replace
+from dataclasses import dataclass, replace
 from itertools import chain
 from typing import Final, NamedTuple
 
@@ -33,8 +33,7 @@ _ALMOST_FULL_TURN: Final = 6.28
 """Radians, a little less than a full turn."""
 
 
-@dataclass(frozen=True, eq=False, slots=True)
-class Intersections:
+class Intersections(NamedTuple):
     """e meetings of raw pieces `a` and `b` (e,) at `points` (e,), `along_a` and `along_b` mm along them.
 
     `turn` (e,) is positive if they cross away from their ends and going from a to b turns to the cutter's side,
@@ -47,9 +46,6 @@ class Intersections:
     along_b: Floats
     points: Points
     turn: Floats
-
-    def __len__(self) -> int:
-        return len(self.a)
 
 
 def _self_intersections(raw: RawOffset, sign: int) -> Intersections | None:
@@ -96,8 +92,7 @@ def _meet_next_only_at_joint(raw: RawOffset) -> Flags:
 def _concatenated(parts: list[Intersections]) -> Intersections:
     none = np.empty(0, np.intp)
     empty = Intersections(none, none, np.empty(0), np.empty(0), np.empty(0, np.complex128), np.empty(0))
-    names = [field.name for field in fields(Intersections)]
-    return Intersections(*(np.concatenate([getattr(part, name) for part in [empty, *parts]]) for name in names))
+    return Intersections._make(map(np.concatenate, zip(empty, *parts, strict=True)))
 
 
 def _intersections(raw: RawOffset, i: Rows, j: Rows, met: Meetings, sign: int) -> Intersections:
@@ -243,7 +238,7 @@ def _strands(raw: RawOffset) -> _Strands:
 
 def _stations(raw: RawOffset, met: Intersections, nodes: int) -> _Stations:
     piece, along = np.concatenate((met.a, met.b)), np.concatenate((met.along_a, met.along_b))
-    node, turn = np.tile(nodes + np.arange(len(met)), 2), np.concatenate((met.turn, -met.turn))
+    node, turn = np.tile(nodes + np.arange(len(met.a)), 2), np.concatenate((met.turn, -met.turn))
     order = np.lexsort((along, piece))
     piece = piece[order]
     along = np.minimum(np.maximum(along[order], 0.0), raw.lengths[piece])

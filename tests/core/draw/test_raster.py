@@ -11,8 +11,7 @@ from hypothesis import strategies as st
 from shapely.geometry import box
 
 from core.draw.characters import Mode
-from core.draw.chords import chords
-from core.draw.raster import draw
+from core.draw.raster import chords, draw
 from core.draw.scene import Area, Circle, Label, Layer, Mark, Scene, Style, Symbol
 from core.draw.view import View
 from core.geometry.path import Path
