@@ -49,10 +49,10 @@ class ToolFits:
     value: int
     lengths: tuple[float, ...] = ()
 
-    @property
-    def left_uncut(self) -> str:
-        """The sentence on the radius that the cutter leaves uncut, with a leading blank; empty if there is none."""
-        return " It leaves the inside radius {0} uncut; {1} or smaller cuts it." if self.lengths else ""
+    def sentence(self, how: str = "") -> str:
+        """Return the end of a sentence: the diameter, its look-ahead, and the radius that the cutter leaves uncut."""
+        left = " It leaves the inside radius {0} uncut; {1} or smaller cuts it." if self.lengths else ""
+        return f"the largest that does not gouge{how}: {{value}}, with look-ahead {self.value}.{left}"
 
 
 @dataclass(frozen=True, slots=True)
@@ -226,15 +226,19 @@ def _remedies(setup: CuttingSetup, table: Table, progress: Progress) -> tuple[Fi
     if nearest.verdict.crosses_itself:
         return _start_at_end_sentence(setup, progress) or (_crossing_first(nearest.verdict.crossing_at),)
     value, start = lookahead_without_blends(setup, progress), start_mid_side(setup, progress)
-    remedies = (*_blends_sentence(value), *_start_sentence(start))
+    remedies = _start_sentence(start)
+    if value is not None:
+        remedies = (_remedy("BLENDLESS", f"W{_NO_BLENDS[1:]} look-ahead {value} is clean."), *remedies)
     bare = None if remedies else without_blends(setup)
     if bare is not None:
         remedies = _start_sentence(start_mid_side(bare, progress, MAX_STARTS_WITHOUT_BLENDS), blends=False)
+    tried = "No look-ahead, start or tool" if setup.closed else "No look-ahead or tool"
     remedies = (
         remedies
         or tuple(_tool_sentences(setup, nearest, progress))
         or _start_at_end_sentence(setup, progress)
-        or (_nothing_helps(closed=setup.closed),)
+        # only what has been tried without success: the trials are bounded, and a number may be mistyped
+        or (Finding("NOTHING_HELPS", Severity.WARNING, f"{tried} was found that works. Check the contour's numbers."),)
     )
     return (*_too_small(nearest, setup.radius), *remedies)
 
@@ -283,12 +287,6 @@ def _too_small(row: Row, radius: float) -> tuple[Finding, ...]:
     return tuple(small)
 
 
-def _blends_sentence(value: int | None) -> tuple[Finding, ...]:
-    if value is None:
-        return ()
-    return (_remedy("BLENDLESS", f"W{_NO_BLENDS[1:]} look-ahead {value} is clean."),)
-
-
 def _start_sentence(start: StartMoved | None, *, blends: bool = True) -> tuple[Finding, ...]:
     if start is None:
         return ()
@@ -313,8 +311,7 @@ def _tool_sentences(setup: CuttingSetup, nearest: Row, progress: Progress) -> It
     larger = larger_tool_without_blends(setup, tool, progress)
     for fits, code, blends in ((tool, "TOOL_FITS", ""), (larger, "TOOL_BLENDLESS", f" {_NO_BLENDS}")):
         if fits is not None:
-            largest = f"the largest that does not gouge{blends}{where}: {{value}}, with look-ahead {fits.value}."
-            text = f"Tool too big; {largest}{fits.left_uncut}"
+            text = f"Tool too big; {fits.sentence(blends + where)}"
             yield replace(_remedy(code, text), field="tool", value=fits.diameter, lengths=fits.lengths)
 
 
@@ -334,13 +331,6 @@ def _crossing_first(at: Point | None) -> Finding:
     place = " at X {x} Y {y}" if at is not None else ""
     text = f"The contour crosses itself{place}. First look there for a wrong DIRECTION, sign or number."
     return Finding("CROSSING_FIRST", Severity.WARNING, text, at=at)
-
-
-def _nothing_helps(*, closed: bool) -> Finding:
-    """Return only what has been tried without success: the trials are bounded, and a number may be mistyped."""
-    tried = "No look-ahead, start or tool" if closed else "No look-ahead or tool"
-    text = f"{tried} was found that works. Check the contour's numbers."
-    return Finding("NOTHING_HELPS", Severity.WARNING, text)
 
 
 def _remedy(code: str, text: str) -> Finding:

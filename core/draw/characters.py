@@ -41,8 +41,8 @@ def write_signs(sheet: CellSheet, scene: Scene, view: View, mode: Mode) -> None:
     if scene.axes and columns >= MIN_SCALE_BAR_COLUMNS and rows >= MIN_SCALE_BAR_ROWS:
         _name_axes(sheet, view)
     _write_labels(sheet, scene, view)
-    positions = view.cells([mark.at for mark in scene.marks], columns, rows)
-    for (column, row), mark in zip(positions, scene.marks, strict=True):
+    for mark in scene.marks:
+        column, row = view.cell(mark.at, columns, rows)
         # a NaN is in no cell
         if 0 <= column < columns and 0 <= row < rows:
             here = int(row) * columns + int(column)
@@ -53,12 +53,12 @@ def write_signs(sheet: CellSheet, scene: Scene, view: View, mode: Mode) -> None:
 def _sign(mark: Mark, look: Cells) -> str:
     if mark.symbol is Symbol.ARROW:
         return arrow(mark.direction, look.arrows)
-    return mark.text if mark.symbol is Symbol.NUMBER else look.symbols[mark.symbol]
+    return mark.text if mark.symbol is Symbol.NUMBER else SYMBOLS[mark.symbol]
 
 
 def _write_labels(sheet: CellSheet, scene: Scene, view: View) -> None:
     """Write the labels whose cells are empty or hold only an axis."""
-    for (x, y), text, (right, up), style in scene.labels:
+    for (x, y), text, (right, up) in scene.labels:
         reach = view.scale * LABEL_DISTANCE
         column, row = view.cell((x + right * reach, y + up * reach), sheet.columns, sheet.rows)
         column -= (len(text) - 1) / 2
@@ -66,7 +66,7 @@ def _write_labels(sheet: CellSheet, scene: Scene, view: View) -> None:
             continue
         first = int(row) * sheet.columns + int(column)
         if all(sheet.styles[cell] in (Style.BACKGROUND, Style.AXIS) for cell in range(first, first + len(text))):
-            _write(sheet, int(row), text, style, int(column))
+            _write(sheet, int(row), text, Style.NUMBER, int(column))
 
 
 def scale_bar(scale: float, columns: int, unit: Unit, ends: str) -> str:
@@ -127,14 +127,13 @@ class Cells:
     combination of bits.
     `faint` (256,): the characters of cells with only center paths, which thus differ from the surface without color;
     None if the dots are fine enough to keep the two apart.
-    `symbols`: a mark's character; `arrows`: heads for 0, 45, 90 ... degrees.  `bar`: the scale bar's end, middle, end.
+    `arrows`: heads for 0, 45, 90 ... degrees.  `bar`: the scale bar's end, middle, end.
     """
 
     across: int
     down: int
     bit: NDArray[np.intp]
     table: Characters
-    symbols: Mapping[Symbol, str]
     arrows: str
     bar: str
     faint: Characters | None = None
@@ -159,31 +158,30 @@ def _table(characters: dict[int, str], other: str) -> Characters:
     return np.array([characters.get(code, other) for code in range(256)])
 
 
-_SYMBOLS: Final[Mapping[Symbol, str]] = {
+SYMBOLS: Final[Mapping[Symbol, str]] = {
     Symbol.START: "S",
-    Symbol.ARROW: ">",
     Symbol.PLUNGE: "o",
     Symbol.GOUGE: "!",
     Symbol.DELETED: "x",
     Symbol.CENTER: "+",
 }
+"""A mark's character; an arrow or a number has its own."""
 
 
 def _braille() -> Cells:
     table = _table({0: " ", **{code: chr(0x2800 + code) for code in range(1, 256)}}, " ")
-    bit = np.array([0, 3, 1, 4, 2, 5, 6, 7])
-    return Cells(2, 4, bit, table, _SYMBOLS, "→↗↑↖←↙↓↘", "├─┤")
+    return Cells(2, 4, np.array([0, 3, 1, 4, 2, 5, 6, 7]), table, "→↗↑↖←↙↓↘", "├─┤")
 
 
 def _block() -> Cells:
     table = _table({0: " ", 1: "▀", 2: "▄"}, "█")
-    return Cells(1, 2, np.array([0, 1]), table, _SYMBOLS, ">>^<<<v>", "├─┤", _table({0: " ", 1: "'", 2: "."}, ":"))
+    return Cells(1, 2, np.array([0, 1]), table, ">>^<<<v>", "├─┤", _table({0: " ", 1: "'", 2: "."}, ":"))
 
 
 def _ascii() -> Cells:
     bends = {1 | 2: "/", 4 | 2: "/", 1 | 8: "\\", 4 | 8: "\\"}
     table = _table({0: " ", 1: "-", 2: "/", 4: "|", 8: "\\", **bends}, "+")
-    return Cells(1, 1, np.array([0]), table, _SYMBOLS, ">>^<<<v>", "|-|", _table({0: " "}, "."))
+    return Cells(1, 1, np.array([0]), table, ">>^<<<v>", "|-|", _table({0: " "}, "."))
 
 
 CELLS_OF_MODE: Final[Mapping[Mode, Cells]] = {Mode.BRAILLE: _braille(), Mode.BLOCK: _block(), Mode.ASCII: _ascii()}

@@ -122,7 +122,6 @@ class Label(NamedTuple):
     at: Point
     text: str
     away: Point
-    style: Style = Style.NUMBER
 
 
 @dataclass(frozen=True, eq=False, slots=True)

@@ -6,7 +6,6 @@ view stays the same when the drawing mode changes.
 
 from __future__ import annotations
 
-from collections.abc import Iterable
 from dataclasses import dataclass
 from typing import Final
 
@@ -73,18 +72,8 @@ class View:
 
     def cell(self, point: Point, columns: int, rows: int) -> tuple[float, float]:
         """Return (column, row) of a point (mm), fractions included: the inverse of `at`."""
-        return self.cells([point], columns, rows)[0]
-
-    def cells(self, points: Iterable[Point], columns: int, rows: int) -> list[tuple[float, float]]:
-        """Return the same for several points."""
-        (x, y), wide, high, half_width, half_height = (
-            self.center,
-            self.scale,
-            CELL_HEIGHT * self.scale,
-            columns / 2,
-            rows / 2,
-        )
-        return [((px - x) / wide + half_width, (y - py) / high + half_height) for px, py in points]
+        (x, y), (px, py) = self.center, point
+        return (px - x) / self.scale + columns / 2, (y - py) / (CELL_HEIGHT * self.scale) + rows / 2
 
 
 def _slid(value: float, low: float, high: float, room: float) -> float:

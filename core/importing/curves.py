@@ -13,7 +13,7 @@ from dataclasses import dataclass, replace
 from functools import lru_cache
 from itertools import pairwise
 from math import atan2, ceil, cos, floor, hypot, pi, tau
-from typing import Final, Protocol, TypeVar
+from typing import Final, TypeVar
 
 import numpy as np
 
@@ -64,27 +64,20 @@ SAMPLES_PER_SPAN: Final = 32
 """Curvature samples per smooth span."""
 
 
-class Curve(Protocol):
-    """A smooth curve over a parameter."""
-
-    def at(self, parameters: Floats) -> tuple[Points, Points]:
-        """Return (n,) points at these parameters and (n,) derivatives there, which are not unit vectors."""
-
-    def samples(self, first: float, last: float) -> Floats:
-        """Return the parameters between two others at which a biarc's distance from the curve is measured."""
-
-
 @dataclass(frozen=True, eq=False, slots=True)
 class _EllipseCurve:
+    """A smooth curve over a parameter."""
+
     shape: EllipseArc
 
     def at(self, parameters: Floats) -> tuple[Points, Points]:
+        """Return (n,) points at these parameters and (n,) derivatives there, which are not unit vectors."""
         ahead, across = np.cos(parameters), np.sin(parameters)
         first, second = self.shape.first, self.shape.second
         return self.shape.center + ahead * first + across * second, ahead * second - across * first
 
     def samples(self, first: float, last: float) -> Floats:
-        """Return evenly spaced parameters."""
+        """Return parameters, evenly spaced, at which a biarc's distance from the curve is measured."""
         return first + (last - first) * SAMPLE_FRACTIONS
 
 
@@ -119,6 +112,8 @@ class _SplineCurve:
         """Return spans first ... last - 1 as a curve; its end direction does not depend on the span after it."""
         return _SplineCurve(self.control[:, first:last], None if self.weights is None else self.weights[:, first:last])
 
+
+Curve = _EllipseCurve | _SplineCurve
 
 Row = TypeVar("Row", Points, Floats)
 

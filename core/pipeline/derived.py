@@ -88,15 +88,6 @@ class Derived:
         return self.blocks[number - 1]
 
 
-_SIDES = {
-    CutterComp.ON: None,
-    CutterComp.LEFT: Side.LEFT,
-    CutterComp.RIGHT: Side.RIGHT,
-    CutterComp.PROFILE_LEFT: Side.LEFT,
-    CutterComp.PROFILE_RIGHT: Side.RIGHT,
-}
-
-
 def solve_fields(program: Program) -> Derived:
     """Return every block with its blanks and its look-ahead calculated, without geometry."""
     return Derived(program, tuple(solve_block_fields(program, number) for number in range(1, len(program.blocks) + 1)))
@@ -107,7 +98,8 @@ def solve_block_fields(program: Program, number: int) -> DerivedBlock:
     block = program.blocks[number - 1]
     solved = solve_block(block, program)
     lookahead = _look_ahead(block, solved, solved.every_finding)
-    side = _SIDES[block.cutter_comp]
+    comp = block.cutter_comp
+    side = None if comp is CutterComp.ON else Side(comp.removeprefix("PROFILE "))
     diameter = solved.finish_diameter if solved.finish_diameter is not None else solved.tool_diameter
     usr = () if side is None or lookahead.tag is Tag.CAL else (lookahead.value, lookahead.calculated)
     return DerivedBlock(
@@ -116,7 +108,7 @@ def solve_block_fields(program: Program, number: int) -> DerivedBlock:
         solved=solved,
         lookahead=lookahead,
         side=side,
-        profile=block.cutter_comp in (CutterComp.PROFILE_LEFT, CutterComp.PROFILE_RIGHT),
+        profile=comp.startswith("PROFILE"),
         radius=None if diameter is None else diameter / 2,
         paths=None,
         complete=False,

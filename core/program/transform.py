@@ -145,15 +145,15 @@ def repeat_segments(program: Program, number: int, first: int, last: int, motion
     if any(isinstance(segment, BlendSegment | ChamferSegment) for segment in corner):
         return Refused("Begin and end the copied segments with a LINE or an ARC.")
     shapes, kept = solved.segments[first - 1 : last], block.segments[first - 1 : last]
-    end, made, step = _end(shapes[-1]), list[Segment](), Motion()
+    end, made, step = _known(shapes[-1].end), list[Segment](), Motion()
     for _ in range(copies):
         step = step.then(motion)
-        begin = step.point(_begin(shapes[0]))
+        begin = step.point(_known(shapes[0].start))
         copy = list(_transformed(kept, shapes, step, program.unit, explicit=True))
         if dist(begin, end) > SAME_PLACE:
             copy.insert(0, LineSegment(_typed(begin[0], program.unit), _typed(begin[1], program.unit)))
         made += _with_own_values(copy, shapes, program.unit)
-        end = step.point(_end(shapes[-1]))
+        end = step.point(_known(shapes[-1].end))
     after = (renumbered(segment, last + 1, len(made)) for segment in block.segments[last:])
     segments = (*block.segments[:last], *made, *after)
     return with_part(program, FormPlace(number), replace(block, segments=segments))
@@ -183,14 +183,9 @@ def _undetermined(block: Block, solved: SolvedBlock) -> Refused | None:
     return None
 
 
-def _begin(segment: SolvedSegment) -> Point:
-    assert segment.start is not None
-    return segment.start
-
-
-def _end(segment: SolvedSegment) -> Point:
-    assert segment.end is not None
-    return segment.end
+def _known(point: Point | None) -> Point:
+    assert point is not None
+    return point
 
 
 def _typed(millimeters: float, unit: Unit) -> Number:
@@ -207,7 +202,7 @@ def _transformed(
             case LineSegment() | ArcSegment() if not explicit and (made := _moved_data(segment, motion, unit)):
                 yield made
             case LineSegment():
-                x, y = motion.point(_end(shape))
+                x, y = motion.point(_known(shape.end))
                 yield LineSegment(_typed(x, unit), _typed(y, unit), segment.z_end, feed=segment.feed)
             case ArcSegment():
                 yield _arc(segment, shape, motion, unit)
@@ -240,7 +235,7 @@ def _moved_data(segment: LineSegment | ArcSegment, motion: Motion, unit: Unit) -
 
 def _arc(segment: ArcSegment, shape: SolvedSegment, motion: Motion, unit: Unit) -> ArcSegment:
     direction = OTHER_WAY[segment.direction] if motion.mirrored else segment.direction
-    x, y = motion.point(_end(shape))
+    x, y = motion.point(_known(shape.end))
     made = ArcSegment(direction, _typed(x, unit), _typed(y, unit), segment.z_end, feed=segment.feed)
     if isinstance(shape.sharp, Arc):
         x, y = motion.point(shape.sharp.center)

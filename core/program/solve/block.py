@@ -100,13 +100,10 @@ def _drafts(block: Block, unit: Unit, start: _Start) -> tuple[list[Draft], tuple
         drafts += together
         runs += [run] if run is not None else []
         carried = drafts[-1].after
-    placed = [_with_faults(item, place_faults(contour, index)) for index, item in enumerate(drafts)]
-    return placed, tuple(runs)
-
-
-def _with_faults(item: Draft, faults: tuple[Finding, ...]) -> Draft:
-    """Add the faults in its segment's references to other segments to a draft."""
-    return replace(item, result=replace(item.result, findings=(*faults, *item.result.findings))) if faults else item
+    for index, item in enumerate(drafts):
+        findings = (*place_faults(contour, index), *item.result.findings)
+        drafts[index] = replace(item, result=replace(item.result, findings=findings))
+    return drafts, tuple(runs)
 
 
 def _segments(block: Block, drafts: Sequence[Draft]) -> tuple[SolvedSegment, ...]:
