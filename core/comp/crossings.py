@@ -12,7 +12,7 @@ import numpy as np
 
 from core.comp.offset import RawChain, RawPart
 from core.geometry.intersect import Meeting, Meetings, meet_pieces
-from core.geometry.path import Flags, Floats, Pieces, Points, Rows, as_complex, boxes, pieces_of
+from core.geometry.path import Flags, Floats, Pieces, Points, Rows, boxes, pieces_of
 from core.tolerance import ON_PATH
 
 
@@ -86,7 +86,7 @@ def _chosen(met: Meetings, a: Rows, b: Rows, chosen: Flags) -> Crossings:
         met.along_b[rows],
         met.rest_a[rows] <= ON_PATH,
         met.rest_b[rows] <= ON_PATH,
-        as_complex(met.points)[rows],
+        met.points[rows],
     )
 
 

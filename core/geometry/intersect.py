@@ -6,15 +6,14 @@ part.
 
 from __future__ import annotations
 
-from dataclasses import dataclass
 from enum import IntEnum
 from math import tau
-from typing import Final, NamedTuple
+from typing import Any, Final, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
 
-from core.geometry.path import Flags, Floats, Path, Pieces, Points, Rows, coordinates, pieces_of, swept
+from core.geometry.path import Flags, Floats, Path, Pieces, Points, Rows, pieces_of, swept
 from core.tolerance import JOINED, ON_PATH
 
 _ROOM: Final = 1e-6
@@ -35,8 +34,7 @@ class Meeting(IntEnum):
     """They run along each other."""
 
 
-@dataclass(frozen=True, eq=False, slots=True)
-class Meetings:
+class Meetings(NamedTuple):
     """How k pairs of pieces a, b meet, and the p points where they do.
 
     Points come in the order of pairs and, within a pair, as traveled on a.  A TOUCH that is nearly a CROSS may have two
@@ -53,23 +51,8 @@ class Meetings:
     rest_a: Floats
     """(p,) distance of the point from the end of a."""
     rest_b: Floats
-    points: Floats
-    """(p, 2)"""
-
-
-class _Points(NamedTuple):
-    """p points in the order of their pairs: `Meetings` without the kinds."""
-
-    pair: Rows
-    along_a: Floats
-    along_b: Floats
-    rest_a: Floats
-    rest_b: Floats
-    point: Points
-
-
-_Solved = tuple[NDArray[np.int8], _Points]
-"""The kind of each of k pairs, and the points where they meet."""
+    points: Points
+    """(p,)"""
 
 
 def meet(first: Path, a: Rows, second: Path, b: Rows) -> Meetings:
@@ -92,32 +75,25 @@ def meet_pieces(first: Pieces, a: Rows, second: Pieces, b: Rows) -> Meetings:
     for these, solve in which:
         rows = these.nonzero()[0]
         if len(rows):
-            kinds[rows], meetings = solve(first.take(a[rows]), second.take(b[rows]))
-            parts.append(_Points(rows[meetings.pair], *meetings[1:]))
-    meetings = _joined(parts)
-    return Meetings(kinds, *meetings[:5], coordinates(meetings.point))
+            met = solve(first.take(a[rows]), second.take(b[rows]))
+            kinds[rows] = met.kinds
+            parts.append(met._replace(pair=rows[met.pair]))
+    return _joined(kinds, parts)
 
 
-def _joined(parts: list[_Points]) -> _Points:
-    """Return all points in the order of their pairs."""
+def _joined(kinds: NDArray[np.int8], parts: list[Meetings]) -> Meetings:
+    """Return the points of all parts in the order of their pairs, which have these kinds."""
     if len(parts) == 1:
-        return parts[0]
+        return parts[0]._replace(kinds=kinds)
     if not parts:
         none = np.empty(0)
-        return _Points(np.empty(0, np.intp), none, none, none, none, np.empty(0, np.complex128))
-    pair, *columns = (np.concatenate(column) for column in zip(*parts, strict=True))
+        return Meetings(kinds, np.empty(0, np.intp), none, none, none, none, np.empty(0, np.complex128))
+    _, pair, *columns = (np.concatenate(column) for column in zip(*parts, strict=True))
     order = np.argsort(pair, kind="stable")
-    return _Points(pair[order], *(column[order] for column in columns))
+    return Meetings(kinds, pair[order], *(column[order] for column in columns))
 
 
-def _kinds(count: int, pair: Rows, touching: Flags) -> NDArray[np.int8]:
-    """Return CROSS or TOUCH for the pairs that have a point, APART for the others."""
-    kinds = np.zeros(count, np.int8)
-    kinds[pair] = np.where(touching[pair], Meeting.TOUCH.value, Meeting.CROSS.value)
-    return kinds
-
-
-def _lines(a: Pieces, b: Pieces) -> _Solved:
+def _lines(a: Pieces, b: Pieces) -> Meetings:
     """Meet lines with lines: solve a.start + s (a.end - a.start) = b.start + t (b.end - b.start) by cross products."""
     span_a, span_b, between = a.end - a.start, b.end - b.start, b.start - a.start
     length_a, length_b = np.abs(span_a), np.abs(span_b)
@@ -128,17 +104,18 @@ def _lines(a: Pieces, b: Pieces) -> _Solved:
     along_a, along_b = part * length_a, (between.conj() * span_a).imag / divisor * length_b
     on = (_within(along_a, length_a) & _within(along_b, length_b) & ~parallel).nonzero()[0]
     rests = (length_a - along_a)[on], (length_b - along_b)[on]
-    meetings = _Points(on, along_a[on], along_b[on], *rests, (a.start + part * span_a)[on])
     kinds = np.zeros(len(cross), np.int8)
     kinds[on] = Meeting.CROSS.value
+    met = Meetings(kinds, on, along_a[on], along_b[on], *rests, (a.start + part * span_a)[on])
     rows = (parallel & (length_a > 0.0) & (length_b > 0.0)).nonzero()[0]
-    if len(rows):
-        kinds[rows], touches = _parallel(a.take(rows), b.take(rows))
-        meetings = _joined([meetings, touches._replace(pair=rows[touches.pair])])
-    return kinds, meetings
+    if not len(rows):
+        return met
+    touches = _parallel(a.take(rows), b.take(rows))
+    kinds[rows] = touches.kinds
+    return _joined(kinds, [met, touches._replace(pair=rows[touches.pair])])
 
 
-def _parallel(a: Pieces, b: Pieces) -> _Solved:
+def _parallel(a: Pieces, b: Pieces) -> Meetings:
     """Meet parallel lines: those in one line overlap, or touch end to end."""
     span, other = a.end - a.start, b.end - b.start
     length = np.abs(span)
@@ -152,10 +129,10 @@ def _parallel(a: Pieces, b: Pieces) -> _Solved:
     kinds[touch] = Meeting.TOUCH.value
     along_a, along_b = low[touch], np.abs(low - first.real)[touch]
     rests = length[touch] - along_a, np.abs(other[touch]) - along_b
-    return kinds, _Points(touch, along_a, along_b, *rests, (a.start + low * unit)[touch])
+    return Meetings(kinds, touch, along_a, along_b, *rests, (a.start + low * unit)[touch])
 
 
-def _line_arc(line: Pieces, arc: Pieces) -> _Solved:
+def _line_arc(line: Pieces, arc: Pieces) -> Meetings:
     """Meet lines with arcs: half the chord on either side of the foot of the arc's center."""
     span, radius = line.end - line.start, np.abs(arc.start - arc.center)
     length = np.abs(span)
@@ -171,16 +148,15 @@ def _line_arc(line: Pieces, arc: Pieces) -> _Solved:
     near = _in_sector(points, arc.take(pair)).nonzero()[0]
     pair, along, points = pair[near], along[near], points[near]
     run, rest = _along_arc(points, arc.take(pair), radius[pair])
-    meetings = _on_both(_Points(pair, along, run, length[pair] - along, rest, points))
-    return _kinds(len(room), meetings.pair, np.abs(room) <= ON_PATH), meetings
+    return _on_both(room, pair, along, run, length[pair] - along, rest, points)
 
 
-def _arc_line(arc: Pieces, line: Pieces) -> _Solved:
-    kinds, (pair, along, run, left, rest, points) = _line_arc(line, arc)
-    return kinds, _as_traveled(_Points(pair, run, along, rest, left, points))
+def _arc_line(arc: Pieces, line: Pieces) -> Meetings:
+    kinds, pair, along, run, left, rest, points = _line_arc(line, arc)
+    return _as_traveled(Meetings(kinds, pair, run, along, rest, left, points))
 
 
-def _arcs(a: Pieces, b: Pieces) -> _Solved:
+def _arcs(a: Pieces, b: Pieces) -> Meetings:
     """Meet arcs with arcs: half the common chord by Heron's formula, which stays accurate near tangency."""
     between, big, small = b.center - a.center, np.abs(a.start - a.center), np.abs(b.start - b.center)
     apart, total, differ = np.abs(between), big + small, big - small
@@ -196,12 +172,11 @@ def _arcs(a: Pieces, b: Pieces) -> _Solved:
     pair, points = pair[near], points[near]
     run_a, rest_a = _along_arc(points, a.take(pair), big[pair])
     run_b, rest_b = _along_arc(points, b.take(pair), small[pair])
-    meetings = _as_traveled(_on_both(_Points(pair, run_a, run_b, rest_a, rest_b, points)))
-    kinds = _kinds(len(room), meetings.pair, np.abs(room) <= ON_PATH)
+    met = _as_traveled(_on_both(room, pair, run_a, run_b, rest_a, rest_b, points))
     rows = (concentric & (np.abs(differ) <= ON_PATH)).nonzero()[0]
     if len(rows):
-        kinds[rows[_overlap(a.take(rows), b.take(rows))]] = Meeting.OVERLAP.value
-    return kinds, meetings
+        met.kinds[rows[_overlap(a.take(rows), b.take(rows))]] = Meeting.OVERLAP.value
+    return met
 
 
 def _in_sector(point: Points, arc: Pieces) -> Flags:
@@ -270,17 +245,19 @@ def _within(along: Floats, length: Floats) -> Flags:
     return (along >= -ON_PATH) & (along <= length + ON_PATH)
 
 
-def _on_both(points: _Points) -> _Points:
-    """Return the points that lie on both pieces."""
-    least = np.minimum(np.minimum(points.along_a, points.along_b), np.minimum(points.rest_a, points.rest_b))
-    on = least >= -ON_PATH
-    return _Points._make(column[on] for column in points)
+def _on_both(room: Floats, pair: Rows, *columns: NDArray[Any]) -> Meetings:
+    """Return the points that lie on both pieces; pairs with `room` (k,) of no more than ON_PATH touch, others cross."""
+    along_a, along_b, rest_a, rest_b, _ = columns
+    on = np.minimum(np.minimum(along_a, along_b), np.minimum(rest_a, rest_b)) >= -ON_PATH
+    kinds, pair = np.zeros(len(room), np.int8), pair[on]
+    kinds[pair] = np.where(np.abs(room[pair]) <= ON_PATH, Meeting.TOUCH.value, Meeting.CROSS.value)
+    return Meetings(kinds, pair, *(column[on] for column in columns))
 
 
-def _as_traveled(points: _Points) -> _Points:
+def _as_traveled(met: Meetings) -> Meetings:
     """Put the two points of a pair in the order in which a is traveled."""
-    pair, along = points.pair, points.along_a
+    pair, along = met.pair, met.along_a
     swap = ((pair[1:] == pair[:-1]) & (along[1:] < along[:-1])).nonzero()[0]
-    for column in points[1:]:
+    for column in met[2:]:
         column[swap], column[swap + 1] = column[swap + 1], column[swap]
-    return points
+    return met

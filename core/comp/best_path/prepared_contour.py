@@ -169,7 +169,7 @@ def crosses_itself(path: Path, *, closed: bool) -> tuple[float, float] | None:
         order = np.lexsort((i, j - i))
         i, j = i[order], j[order]
         met = meet(path, i, path, j)
-        hit = met.pair[~_at_joint(path, i[met.pair], j[met.pair], as_complex(met.points))]
+        hit = met.pair[~_at_joint(path, i[met.pair], j[met.pair], met.points)]
         hit = np.concatenate((hit, (met.kinds == Meeting.OVERLAP).nonzero()[0]))
         if len(hit):
             return float(path.numbers[i[hit[0]]]), float(path.numbers[j[hit[0]]])

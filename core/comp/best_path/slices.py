@@ -20,7 +20,7 @@ from core.comp.best_path.prepared_contour import NOT_WHOLE_TURN
 from core.comp.best_path.raw_offset import RawOffset
 from core.geometry.intersect import Meeting, Meetings, meet_pieces
 from core.geometry.nearby import near_pairs, near_pairs_within
-from core.geometry.path import Flags, Floats, Points, Rows, as_complex, boxes, next_in_ring
+from core.geometry.path import Flags, Floats, Points, Rows, boxes, next_in_ring
 from core.tolerance import JOINED, ON_PATH
 
 MAX_PAIRS: Final = 8_000_000
@@ -96,7 +96,7 @@ def _concatenated(parts: list[Intersections]) -> Intersections:
 
 
 def _intersections(raw: RawOffset, i: Rows, j: Rows, met: Meetings, sign: int) -> Intersections:
-    a, b, points = i[met.pair], j[met.pair], as_complex(met.points)
+    a, b, points = i[met.pair], j[met.pair], met.points
     bend = raw.directions(a, points).conj() * raw.directions(b, points)
     ends = np.minimum(np.minimum(met.along_a, met.rest_a), np.minimum(met.along_b, met.rest_b))
     proper = (met.kinds[met.pair] == Meeting.CROSS) & (ends > JOINED)
