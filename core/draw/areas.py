@@ -41,8 +41,9 @@ def material(surface: Path, side: Side, radius: float, *, closed: bool, sag: flo
             points, -OPEN_THICKNESS_RADII * radius if side is Side.LEFT else OPEN_THICKNESS_RADII * radius
         )
     inside = shapely.make_valid(Polygon(points))
-    left = _counter_clockwise(points)
-    if left is not (side is Side.LEFT):
+    x, y = points.T
+    counterclockwise = bool((x * np.roll(y, -1) - np.roll(x, -1) * y).sum() > 0.0)
+    if counterclockwise is not (side is Side.LEFT):
         return inside
     return box(*inside.buffer(OUTSIDE_THICKNESS_RADII * radius).bounds).difference(inside)
 
@@ -57,11 +58,6 @@ def _strip_along(points: Floats, distance: float) -> BaseGeometry:
         return LineString(points).buffer(distance, single_sided=True)
     except shapely.GEOSException:
         return shapely.union_all([LineString(chord).buffer(distance, single_sided=True) for chord in pairwise(points)])
-
-
-def _counter_clockwise(points: Floats) -> bool:
-    x, y = points.T
-    return bool((x * np.roll(y, -1) - np.roll(x, -1) * y).sum() > 0.0)
 
 
 def swept(paths: Sequence[Path], radius: float, sag: float) -> BaseGeometry:

@@ -11,7 +11,7 @@ from typing import Final, NamedTuple
 
 import numpy as np
 
-from core.draw.scene import Layer, Scene, Style
+from core.draw.scene import Scene, Style
 from core.geometry.piece import Line, Piece, Point
 from core.units import Unit, from_mm
 
@@ -71,16 +71,13 @@ def _tables() -> Iterator[str]:
 
 def _entities(scene: Scene, unit: Unit) -> Iterator[str]:
     for layer in scene.layers:
-        if layer.style in _PENS and not _is_sketch(layer):
+        # segments that are not determined yet are dashed surface
+        is_sketch = layer.dashed and layer.style is Style.SURFACE
+        if layer.style in _PENS and not is_sketch:
             # the contour's layer has all of it, even parts that a screen draws in another role
             for path in [layer.path] if layer.style is Style.SURFACE else layer.parts:
                 for piece in path:
                     yield from _entity(piece, _PENS[layer.style].layer, unit)
-
-
-def _is_sketch(layer: Layer) -> bool:
-    """True for segments that are not determined yet: they are dashed surface."""
-    return layer.dashed and layer.style is Style.SURFACE
 
 
 def _entity(piece: Piece, layer: str, unit: Unit) -> Iterator[str]:

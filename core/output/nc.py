@@ -134,7 +134,8 @@ def _header(jobs: Sequence[Job], unit: Unit, head: tuple[str, ...], waived: tupl
     yield from comments("WRITTEN BY CUTCOMP.  THE PATH IS THAT OF THE TOOL CENTER: NO G41 OR G42")
     yield from comments(f"UNITS {'INCH' if unit is Unit.IN else 'MM'}")
     for cutter, role in _cutters(jobs).items():
-        yield from comments(_tool_line(cutter, role, unit))
+        size = length_text(cutter.diameter, unit)
+        yield from comments(f"TOOL {cutter.number} {cutter.type} DIAMETER {size} {role}".rstrip())
     for job in jobs:
         yield from _block_lines(job, unit)
     if waived:
@@ -152,10 +153,6 @@ def _cutters(jobs: Sequence[Job]) -> dict[Cutter, str]:
             if cutter is not None:
                 roles.setdefault(cutter, role)
     return roles
-
-
-def _tool_line(cutter: Cutter, role: str, unit: Unit) -> str:
-    return f"TOOL {cutter.number} {cutter.type} DIAMETER {length_text(cutter.diameter, unit)} {role}".rstrip()
 
 
 def _block_lines(job: Job, unit: Unit) -> Iterator[str]:
@@ -189,7 +186,10 @@ def _body(jobs: Sequence[Job], grid: Grid) -> Iterator[str]:
             changed = a_pass.cutter.number != tool
             if changed:
                 yield from _coolant_change(coolant, Coolant.OFF)
-                yield from _tool_change(a_pass, first=tool is None)
+                if tool is not None:
+                    yield "M5"
+                yield f"T{a_pass.cutter.number} M6"
+                yield f"S{speed_text(a_pass.speed)} M3"
                 writer, tool, speed, coolant = _MoveWriter(grid), a_pass.cutter.number, a_pass.speed, Coolant.OFF
             elif a_pass.speed != speed:
                 yield f"S{speed_text(a_pass.speed)}"
@@ -212,13 +212,6 @@ def _coolant_change(now: Coolant, then: Coolant) -> Iterator[str]:
         yield "M9"
     if then is not Coolant.OFF:
         yield "M7" if then is Coolant.MIST else "M8"
-
-
-def _tool_change(a_pass: Pass, *, first: bool) -> Iterator[str]:
-    if not first:
-        yield "M5"
-    yield f"T{a_pass.cutter.number} M6"
-    yield f"S{speed_text(a_pass.speed)} M3"
 
 
 def _with_length(lines: Sequence[str], tool: int) -> Iterator[str]:

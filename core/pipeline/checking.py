@@ -1,11 +1,16 @@
-"""Checks one program on one control: findings, outcome in words, and the machine-readable object."""
+"""Checks one program on one control: findings, outcome in words, and the machine-readable object.
+
+For a tool that is too big it finds the largest that fits: it runs the program with smaller and smaller sizes of it.
+"""
 
 from __future__ import annotations
 
+import re
 from collections import Counter
 from collections.abc import Callable, Iterable, Iterator
 from dataclasses import dataclass, replace
 from enum import StrEnum, auto
+from math import ceil
 from shlex import quote
 from typing import Final
 
@@ -13,7 +18,7 @@ from core.controls.compared_contours import ContourPair, Parting, contours
 from core.controls.compared_controls import Compared, OtherLanguage, compare
 from core.controls.control_names import display_name
 from core.controls.control_run import MAX_ALIKE, ControlRun, finding_of_omitted
-from core.controls.control_tools import ToolId, ToolTable
+from core.controls.control_tools import CutterTool, ToolId, ToolTable, tool_id
 from core.controls.iso.flow import ProgramLibrary, no_library
 from core.controls.iso.modal_state import RADIUS_ZERO
 from core.controls.judging import shop_rules
@@ -23,10 +28,9 @@ from core.controls.judging.judged_runs import deepest_gouge, first_unjudged, jud
 from core.controls.moves import Move, Moves
 from core.controls.registry import UnknownControl, reads, run
 from core.finding import Finding, Severity
-from core.pipeline.fitting_tool import largest_tool
 from core.program.tools import unusual_size
 from core.progress import Progress, silent
-from core.units import Unit, from_mm, length_text, sentence
+from core.units import Kind, Unit, decimals_shown, from_mm, length_text, sentence, to_mm
 
 NOT_FOLLOWED: Final = (
     *("MACRO", "LIMIT", "BEYOND", "N-PROBE"),
@@ -492,3 +496,62 @@ def _pair(pair: ContourPair, first: Unit, second: Unit) -> str:
     if not pair.same_side:
         differences.append("the sides or planes differ")
     return f"Contour {pair.number}: {', '.join(differences)}."
+
+
+MAX_MOVES: Final = 2_000
+"""Most moves, and most lines, of a program that is run again and again."""
+
+MAX_TOOLS: Final = 8
+"""Most tools of a program that are tried."""
+
+MAX_REDUCTION: Final = 20
+"""The smallest size tried is the diameter divided by this: with a tiny tool every fault looks small."""
+
+_NAMED: Final = re.compile(rb'(?:[TD]|CALL|DEF)\s*(?:(\d+)|"([^"]+)")', re.IGNORECASE)
+"""How a program names a tool or an offset."""
+
+
+def largest_tool(
+    text: bytes,
+    done: ControlRun,
+    tools: ToolTable,
+    library: ProgramLibrary,
+    unit: Unit | None,
+    progress: Progress = silent,
+) -> Finding | None:
+    """Return the tool that is too big for a program that alarms or gouges, and the largest diameter that is clean.
+
+    `done` is the run with the tools as they are.  None if no smaller tool helps: the fault is a different one.
+    Each trial reports its own `progress`: the number of trials is not known beforehand.
+    """
+    if len(done.moves) > MAX_MOVES or text.count(b"\n") > MAX_MOVES:
+        return None
+
+    step = 10.0 ** -decimals_shown(Kind.LENGTH, done.unit)
+
+    def fits(tool: CutterTool, size: int) -> bool:
+        diameter = step * size if tool.diameter > 0.0 else -step * size
+        trial = tools.with_tools(ToolTable.of(replace(tool, diameter=diameter, unit=done.unit)))
+        ran = run(text, done.control, trial, unit, library, progress=progress)
+        if isinstance(ran, UnknownControl) or len(ran.moves) > MAX_MOVES or ran.stopped_at is not None:
+            return False
+        return deepest_gouge(judge_run(ran, progress))[0] == 0.0
+
+    for tool in _named(text, tools):
+        fails = ceil(from_mm(abs(tool.diameter_mm(done.unit)), done.unit) / step - 1e-6)
+        clean = fails // MAX_REDUCTION
+        if not clean or not fits(tool, clean):
+            continue
+        while fails - clean > 1:
+            size = (clean + fails) // 2
+            clean, fails = (size, fails) if fits(tool, size) else (clean, size)
+        message = f"Tool {tool.number} is too big; the largest that does not gouge: {{0}}."
+        return Finding("TOOL_FITS", Severity.INFO, message, lengths=(to_mm(step * clean, done.unit),))
+    return None
+
+
+def _named(text: bytes, tools: ToolTable) -> tuple[CutterTool, ...]:
+    """Return the tools of the table that the text names."""
+    names = dict.fromkeys(tool_id((number or name).decode(errors="replace")) for number, name in _NAMED.findall(text))
+    named = map(tools.get, names)
+    return tuple(tool for tool in named if tool is not None)[:MAX_TOOLS]

@@ -28,7 +28,7 @@ from core.advice.path_findings import (
 from core.advice.remedies import advice_for, largest_tool, without_blends
 from core.comp.best_path.best_path import BestPath, best_path
 from core.comp.best_path.separation import separation
-from core.comp.blend_moves import blend_in, blend_out
+from core.comp.compensate import blend_in, blend_out
 from core.comp.compensated import CenterPath, Compensated
 from core.controls.judging.repeated_passes import path_key
 from core.finding import Finding, Severity

@@ -89,6 +89,7 @@ def block_scene(block: DerivedBlock, segment: int | None, unit: Unit, row: Row |
         control, verdict = row.compensated, row.verdict
         loops = (control,)
     surface, first = _surface(block), loops[0] if loops else CenterPath(EMPTY)
+    place = None if segment is None else _place(loops, control, segment)
     return contour_scene(
         surface,
         unit=unit,
@@ -103,7 +104,7 @@ def block_scene(block: DerivedBlock, segment: int | None, unit: Unit, row: Row |
         over_run=NO_PARTS if verdict is None else _over_run(surface, verdict),
         gouges=[*(() if verdict is None else [gouge.surface_at for gouge in verdict.gouges]), *_cuts_of_others(block)],
         uncut=NO_PARTS if verdict is None or not verdict.uncut else parts_between(surface, verdict.uncut_ends),
-        cutter=_cutter(block, loops, control, segment),
+        cutter=None if place is None or block.radius is None else (place, block.radius),
         current=_current(block, segment),
         start=solved.segments[0].start if solved.segments else None,
     )
@@ -298,13 +299,6 @@ def _current(block: DerivedBlock, segment: int | None) -> Path | None:
         return None
     piece = block.solved.segments[segment - 1].piece
     return None if piece is None else Path.from_pieces([piece])
-
-
-def _cutter(
-    block: DerivedBlock, loops: Sequence[CenterPath], control: Compensated | None, segment: int | None
-) -> tuple[Point, float] | None:
-    place = None if segment is None else _place(loops, control, segment)
-    return None if place is None or block.radius is None else (place, block.radius)
 
 
 def _place(loops: Sequence[CenterPath], control: Compensated | None, segment: int) -> Point | None:

@@ -190,14 +190,11 @@ def insert_segment(program: Program, where: FormPlace, segment: Segment) -> Edit
         if not before:
             return Refused(f"A {form_of(segment)} cannot be the first segment: it stands between two others.")
         if other := next((each for each in (*before[-1:], *after[:1]) if isinstance(each, CornerSegment)), None):
-            return Refused(f"A {form_of(segment)} cannot be next to {_another(form_of(segment), form_of(other))}.")
+            what = "another" if form_of(other) is form_of(segment) else "a"
+            return Refused(f"A {form_of(segment)} cannot be next to {what} {form_of(other)}.")
     after = tuple(renumbered(following, where.segment, 1) for following in after)
     whole = with_part(program, FormPlace(where.block), replace(block, segments=(*before, segment, *after)))
     return _run_picked_anew(whole, whole, where)
-
-
-def _another(form: Form, other: Form) -> str:
-    return f"another {other}" if form is other else f"a {other}"
 
 
 def delete_segment(program: Program, where: FormPlace) -> Edited:

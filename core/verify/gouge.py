@@ -49,16 +49,15 @@ def gouging(pairs: Pairs, limit: float) -> Gouging:
         return Gouging(NO_INTERVALS, none, none, near, near)
     gaps = LOOP_GAP * _loops(pairs.pieces).astype(np.float64)
     some_at_a_time = (near[first : first + PAIRS_AT_A_TIME] for first in range(0, len(near), PAIRS_AT_A_TIME))
-    deepest = [_deepest(pairs, _near_parts(pairs, rows, limits[rows]), gaps) for rows in some_at_a_time]
+    deepest = []
+    for rows in some_at_a_time:
+        # the parts nearer than the limit, and the places where they may be nearest
+        spots, apart, pair = approaches(pairs, rows, limits[rows])
+        near_parts = joined((within(pairs, rows, limits[rows]), Parts(spots, spots, spots, apart, pair)))
+        deepest.append(_deepest(pairs, near_parts, gaps))
     parts = _deepest(pairs, joined(deepest), gaps)
     intervals = Intervals(parts.first, parts.last)
     return Gouging(intervals, parts.middle, parts.apart, pairs.i[parts.pair], pairs.j[parts.pair])
-
-
-def _near_parts(pairs: Pairs, rows: Rows, limit: Floats) -> Parts:
-    """Return the parts of these pairs' pieces nearer than the limit, and the places where they may be nearest."""
-    spots, apart, pair = approaches(pairs, rows, limit)
-    return joined((within(pairs, rows, limit), Parts(spots, spots, spots, apart, pair)))
 
 
 def approaches(pairs: Pairs, rows: Rows, limit: Floats) -> tuple[Floats, Floats, Rows]:

@@ -8,8 +8,7 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from core.comp.blend_moves import blend_in, blend_out, past_start
-from core.comp.compensate import compensate
+from core.comp.compensate import blend_in, blend_out, compensate, past_start
 from core.geometry.path import EMPTY, Path
 from core.geometry.piece import Arc, Line, Side, Turn
 from tests.core.comp.contours import lines, loose

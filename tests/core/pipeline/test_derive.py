@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 from core.advice.path_findings import move_names, path_findings
-from core.comp.blend_moves import blend_in, blend_out
+from core.comp.compensate import blend_in, blend_out
 from core.comp.compensated import CenterPath
 from core.finding import Severity
 from core.geometry.path import Path

@@ -12,7 +12,7 @@ from core.geometry.piece import Piece, Point
 from core.program.solve.run.branch import Branch, DeadEnd, Run
 from core.program.solve.run.newton import polished
 from core.program.solve.run.proof import Pieces, chain_of
-from core.program.solve.run.steps import next_branches
+from core.program.solve.run.steps import STEPS
 
 MAX_SAME_DISTANCE: Final = 1e-6
 """Millimeters within which two answers count as the same."""
@@ -64,7 +64,8 @@ def search(run: Run) -> Search:
         branch, count = waiting.pop(), count + 1
         branch.settle()
         try:
-            ways = None if branch.complete else next_branches(branch)
+            tried = () if branch.complete else (step(branch) for step in STEPS)
+            ways = next((ways for ways in tried if ways is not None), None)
         except DeadEnd as end:
             dropped.append((2, 0, end.finding))
             continue

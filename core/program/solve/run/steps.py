@@ -269,15 +269,6 @@ Step = Callable[[Branch], Ways | None]
 """Returns the branches that follow, None if the step does not apply; raises DeadEnd if nothing fits."""
 
 
-def next_branches(branch: Branch) -> Ways | None:
-    """Return the branches of the first step that applies; None if no step does."""
-    for step in STEPS:
-        ways = step(branch)
-        if ways is not None:
-            return ways
-    return None
-
-
 def _parallel(branch: Branch) -> Ways | None:
     """Choose the heading of a line PARALLEL TO a known one: the same heading first, then the opposite."""
     for index, element in enumerate(branch.run.elements):
