@@ -32,8 +32,7 @@ def field_findings(block: Block, solved: SolvedBlock, program: Program) -> Itera
     yield from _finish_tool_without_allowance(block, program)
     yield from _no_clearance(solved, program)
     yield from _one_pass(block, solved, program)
-    yield from _one_segment(solved)
-    yield from _no_length(solved)
+    yield from _no_contour(solved)
 
 
 def typed_lookahead_warning(value: int, calculated: int) -> Finding:
@@ -196,21 +195,17 @@ def _one_pass(block: Block, solved: SolvedBlock, program: Program) -> Iterator[F
     yield Finding("ONE_PASS", Severity.WARNING, text, 0, "cutter_comp", value=offset, lengths=(least,))
 
 
-def _one_segment(solved: SolvedBlock) -> Iterator[Finding]:
-    """Report a determined contour with only one segment that has a length; a full circle alone is closed."""
-    if solved.closed or solved.determined < len(solved.segments) or len(solved.pieces) != 1:
+def _no_contour(solved: SolvedBlock) -> Iterator[Finding]:
+    """Report a determined contour with only one segment that has a length, or none; a full circle alone is closed."""
+    if not solved.segments or not solved.whole or solved.closed or len(solved.pieces) > 1:
+        return
+    if not solved.pieces:
+        text = "No segment has a length: the contour is a point, and there is no path. Correct X END or Y END."
+        yield Finding("NO_LENGTH", Severity.ERROR, text, 1, "x_end", solved.segments[0].end)
         return
     number, piece = solved.pieces[0]
     text = "The contour is one segment: an open path from START to X {x} Y {y}. Right arrow or Page Down on SEGMENT "
     yield Finding("ONE_SEGMENT", Severity.INFO, text + "adds the next one.", number, None, piece.end)
-
-
-def _no_length(solved: SolvedBlock) -> Iterator[Finding]:
-    """Report a determined contour with no segment that has a length: a point, which has no path."""
-    if not solved.segments or solved.determined < len(solved.segments) or solved.pieces:
-        return
-    text = "No segment has a length: the contour is a point, and there is no path. Correct X END or Y END."
-    yield Finding("NO_LENGTH", Severity.ERROR, text, 1, "x_end", solved.segments[0].end)
 
 
 def _in_force(program: Program, form: Form, name: str) -> float | None:

@@ -108,22 +108,18 @@ def blend_findings(
     `wrong_side` are the moves that run on the part's side, by their rows in the verdict.
     """
     for loop, rows in _rows(loops):
-        blends = (("in", rows.lead_in, rows.path), ("out", rows.lead_out, rows.end))
-        for name, first, last in blends:
+        into, out = ("in", loop.lead_in, rows.lead_in, rows.path), ("out", loop.lead_out, rows.lead_out, rows.end)
+        for name, lead, first, last in (into, out):
             hit = next((gouge for gouge in gouges if first <= gouge.path_piece < last), None)
             if hit is not None:
                 text = f"The blend-{name} arc gouges {{value}} deep. Start elsewhere or reduce BLEND OFFSET with F4."
                 yield Finding("BLEND_GOUGES", Severity.ERROR, text, hit.surface_number, None, hit.at, hit.depth)
             if any(first <= row < last for row in wrong_side):
-                yield _blend_crosses_wall(loop, name)
-
-
-def _blend_crosses_wall(loop: CenterPath, name: str) -> Finding:
-    """Return the warning about a blend arc that crosses a wall, at the arc's free end."""
-    lead, row, way = (loop.lead_in, 0, "from") if name == "in" else (loop.lead_out, -1, "to")
-    x, y = lead.points[row].tolist()
-    text = f"The blend-{name} arc {way} X {{x}} Y {{y}} crosses a wall. Reduce BLEND OFFSET with F4."
-    return Finding("BLEND_LEAVES", Severity.WARNING, text, float(lead.numbers[row]), None, (x, y))
+                # its free end
+                end, way = (0, "from") if name == "in" else (-1, "to")
+                x, y = lead.points[end].tolist()
+                text = f"The blend-{name} arc {way} X {{x}} Y {{y}} crosses a wall. Reduce BLEND OFFSET with F4."
+                yield Finding("BLEND_LEAVES", Severity.WARNING, text, float(lead.numbers[end]), None, (x, y))
 
 
 def rough_findings(rough: Sequence[RoughPass], finish: Compensated | None) -> Iterator[Finding]:

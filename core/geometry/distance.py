@@ -102,8 +102,13 @@ def _fan(arc: PieceArrays, axis: Points, share: Floats) -> Floats:
 
 def nearest_fractions(pieces: PieceArrays, other: PieceArrays) -> Floats:
     """Return (8, n) fractions of n pieces that include every local least distance from the n partners in `other`."""
-    fractions = np.concatenate((_ends(pieces), _crossings(pieces, other), feet(pieces, other)))
-    return _clamped(fractions)
+    ends = np.repeat([[0.0], [1.0]], len(pieces), axis=1)
+    crossings = by_kind(
+        other.arcs,
+        lambda: on_line(pieces, other.start, other.unit),
+        lambda: on_circle(pieces, other.center, other.radius),
+    )
+    return _clamped(np.concatenate((ends, crossings, feet(pieces, other))))
 
 
 def farthest_fractions(pieces: PieceArrays, other: PieceArrays) -> Floats:
@@ -111,9 +116,9 @@ def farthest_fractions(pieces: PieceArrays, other: PieceArrays) -> Floats:
 
     They are the feet, their antipodes, and the points equally far from an arc partner's two ends.
     """
-    count = len(pieces)
+    count, antipodes = len(pieces), np.array((pieces.center - other.start, pieces.center - other.end))
     even = by_kind(other.arcs, lambda: np.zeros((4, count)), lambda: _equidistant_fractions(pieces, other))
-    opposite = by_kind(pieces.arcs, lambda: np.zeros((2, count)), lambda: _antipodes(pieces, other))
+    opposite = by_kind(pieces.arcs, lambda: np.zeros((2, count)), lambda: _arc_fractions(pieces, antipodes))
     return _clamped(np.concatenate((feet(pieces, other), opposite, even)))
 
 
@@ -149,26 +154,12 @@ def _sides(pieces: PieceArrays, line: PieceArrays, reach: Floats) -> Floats:
     return on_line(pieces, np.array((line.start + off, line.start - off)), unit)
 
 
-def _ends(pieces: PieceArrays) -> Floats:
-    ends = np.zeros((2, len(pieces)))
-    ends[1] = 1.0
-    return ends
-
-
 def _clamped(fractions: Floats) -> Floats:
     return np.minimum(np.fmax(fractions, 0.0), 1.0)
 
 
 def _clipped(t: Floats) -> Floats:
     return np.minimum(np.maximum(t, 0.0), 1.0)
-
-
-def _crossings(pieces: PieceArrays, other: PieceArrays) -> Floats:
-    return by_kind(
-        other.arcs,
-        lambda: on_line(pieces, other.start, other.unit),
-        lambda: on_circle(pieces, other.center, other.radius),
-    )
 
 
 def feet(pieces: PieceArrays, other: PieceArrays) -> Floats:
@@ -184,11 +175,11 @@ def _line_feet(line: PieceArrays, other: PieceArrays) -> Floats:
 def _arc_feet(arc: PieceArrays, other: PieceArrays) -> Floats:
     normal = np.where(other.arcs, other.center - arc.center, 1j * other.vector)
     directions = np.array((other.start - arc.center, other.end - arc.center, normal, -normal))
-    return traveled(arc, directions) / arc.angle
+    return _arc_fractions(arc, directions)
 
 
-def _antipodes(arc: PieceArrays, other: PieceArrays) -> Floats:
-    directions = np.array((arc.center - other.start, arc.center - other.end))
+def _arc_fractions(arc: PieceArrays, directions: Points) -> Floats:
+    """Return the fractions at which arcs pass the directions (..., n) from their centers; beyond 1 past their ends."""
     return traveled(arc, directions) / arc.angle
 
 

@@ -10,7 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from core.geometry.path import EMPTY, Floats, Path, Points, Rows, as_complex, coordinates
-from core.geometry.piece import Line, Piece, Point, point_of
+from core.geometry.piece import Line, Piece, point_of
 
 
 class PartEnds(NamedTuple):
@@ -113,12 +113,7 @@ def _steps(surface: Path, begins: Rows, lasts: Rows, wanted: PartEnds) -> Rows:
     steps: Rows = (lasts - begins) % len(surface)
     for row in (begins == lasts).nonzero()[0].tolist():
         piece, start, end = surface[int(begins[row])], point_of(wanted.start[row]), point_of(wanted.end[row])
-        # no stretch ends before a piece's start; `_before` would take an arc from start to start for a full turn
-        if start != piece.start and _before(piece, end, start):
+        # no stretch ends before a piece's start: an arc from start to start would count as a full turn
+        if start != piece.start and replace(piece, end=end).length < replace(piece, end=start).length:
             steps[row] += len(surface)
     return steps
-
-
-def _before(piece: Piece, point: Point, other: Point) -> bool:
-    """True if `point` comes before `other` on this piece."""
-    return replace(piece, end=point).length < replace(piece, end=other).length

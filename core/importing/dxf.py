@@ -316,12 +316,10 @@ class _Reader:
     def _round(
         self, ocs: OCS, center: Vec3, radius: float, angles: tuple[float, float], matrix: Matrix44 | None
     ) -> EllipseArc:
-        center, first, second = (
-            ocs.to_wcs(center),
-            ocs.to_wcs(type(center)(radius, 0, 0)),
-            ocs.to_wcs(type(center)(0, radius, 0)),
-        )
-        return self._ellipse(center, first, second, angles, matrix)
+        from ezdxf.math import Vec3
+
+        first, second = ocs.to_wcs(Vec3(radius, 0, 0)), ocs.to_wcs(Vec3(0, radius, 0))
+        return self._ellipse(ocs.to_wcs(center), first, second, angles, matrix)
 
     def _ellipse(
         self, center: Vec3, first: Vec3, second: Vec3, angles: tuple[float, float], matrix: Matrix44 | None

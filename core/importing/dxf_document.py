@@ -329,20 +329,17 @@ def too_much(what: str, count: int, most: int) -> DrawingError:
     return DrawingError("TOO_MUCH", f"The drawing has {count:,} {what}: at most {most:,} are read.")
 
 
-def _silence(logger: logging.Logger) -> None:
-    """Keep ezdxf's log off the screen: the operator gets messages of our own."""
-    logger.propagate = False
-    if not logger.handlers:
-        logger.addHandler(logging.NullHandler())
-
-
 def document_of(data: bytes, *, damaged: bool) -> tuple[Scan, Document]:
     """Return the scan of the tags and ezdxf's document, or raise DrawingError."""
     try:
         import ezdxf
     except ImportError as error:
         raise DrawingError("NO_EZDXF", MISSING_PACKAGE) from error
-    _silence(logging.getLogger(ezdxf.__name__))
+    # keep ezdxf's log off the screen: the operator gets messages of our own
+    logger = logging.getLogger(ezdxf.__name__)
+    logger.propagate = False
+    if not logger.handlers:
+        logger.addHandler(logging.NullHandler())
     if data.startswith(BINARY_MARK):
         return _binary_document(data, damaged=damaged)
     scan = scan_text(data)

@@ -18,7 +18,7 @@ from core.controls.control_tools import ToolTable
 from core.controls.judging.contours_and_leads import split_where_it_closes
 from core.controls.moves import Moves, Plane
 from core.controls.registry import UnknownControl, run
-from core.finding import Severity
+from core.finding import Finding, Severity
 from core.geometry.construct import even_arc
 from core.geometry.path import Path, runs_of
 from core.geometry.piece import Arc, Line, Piece, Side, Turn
@@ -47,7 +47,8 @@ def read_nc(
     result = run(text, control, tools, unit)
     if isinstance(result, UnknownControl):
         raise NcError(result.text)
-    _refuse_alarm(result)
+    errors = [finding for finding in result.findings if finding.severity is Severity.ERROR]
+    _refuse_alarm(result, errors)
     if result.stretches:
         passes = [contour for stretch in result.stretches for contour in _programmed(result, stretch)]
     elif center is None:
@@ -57,23 +58,18 @@ def read_nc(
         passes = list(_center_passes(result, center))
     if not passes:
         raise NcError("The program has no move in the XY plane at a feed.")
-    return NcProgram(result.unit, tuple(_grouped(passes)), _run_notes(result))
+    notes = tuple(f"line {finding.line}: {sentence(finding, result.unit)}" for finding in errors)
+    return NcProgram(result.unit, tuple(_grouped(passes)), notes)
 
 
-def _refuse_alarm(result: ControlRun) -> None:
+def _refuse_alarm(result: ControlRun, errors: Sequence[Finding]) -> None:
     if result.stopped_at is None:
         return
-    errors = [finding for finding in result.findings if finding.severity is Severity.ERROR]
     why = next((finding for finding in errors if finding.line == result.stopped_at), errors[0] if errors else None)
     text = f"{display_name(result.control)} stops at line {result.stopped_at}"
     if why is None:
         raise NcError(text)
     raise NcError(f"{text}: {sentence(why, result.unit)}", tool=why.tool)
-
-
-def _run_notes(result: ControlRun) -> tuple[str, ...]:
-    errors = [finding for finding in result.findings if finding.severity is Severity.ERROR]
-    return tuple(f"line {finding.line}: {sentence(finding, result.unit)}" for finding in errors)
 
 
 def _programmed(result: ControlRun, stretch: Stretch) -> Iterator[NcContour]:
