@@ -215,16 +215,18 @@ def contour_scene(
     the deleting pieces meet; `gouges` the points cut into; `cutter` (center, radius); `current` the segment under the
     cursor; `start` the contour's START.
     """
-    stays = ~np.isin(surface.numbers, deleted.path.numbers[deleted.in_part])
+    # deleted segments have a line of their own
+    gone = deleted.path.numbers[deleted.in_part]
+    left_uncut = PathParts(uncut.path, uncut.in_part & ~np.isin(uncut.path.numbers, gone))
     layers = (
         *_parts(untaken, Style.UNTAKEN, dashed=True),
         *_parts(sketches, Style.SURFACE, dashed=True),
-        *_parts(PathParts(surface, stays), Style.SURFACE),
+        *_parts(PathParts(surface, ~np.isin(surface.numbers, gone)), Style.SURFACE),
         *_layers(rough, Style.RAPID, dashed=True),
         *_layers(leads, Style.LEAD),
         *_parts(over_run, Style.LEAD),
         *_layers((path, *further), Style.PATH),
-        *_parts(_without(uncut, deleted), Style.UNCUT),
+        *_parts(left_uncut, Style.UNCUT),
         *_parts(deleted, Style.DELETED, dashed=True),
         *_layers((current or EMPTY,), Style.CURRENT),
     )
@@ -236,12 +238,6 @@ def contour_scene(
         *(Mark(at, Style.GOUGE, Symbol.GOUGE) for at in gouges),
     )
     return Scene(layers, () if cutter is None else (Circle(*cutter),), marks, unit)
-
-
-def _without(parts: PathParts, deleted: PathParts) -> PathParts:
-    """Return the parts without deleted segments, which have a line of their own."""
-    gone = np.isin(parts.path.numbers, deleted.path.numbers[deleted.in_part])
-    return PathParts(parts.path, parts.in_part & ~gone)
 
 
 def _layers(paths: Sequence[Path], style: Style, *, dashed: bool = False) -> Iterator[Layer]:

@@ -41,7 +41,8 @@ def _line_share(line: PieceArrays, off: Points) -> Floats:
     A line so short that its squared length is 0 counts as a point.
     """
     square = line.length * line.length
-    return _clipped((off * np.conj(line.vector)).real / np.where(square == 0.0, 1.0, square))
+    share = (off * np.conj(line.vector)).real / np.where(square == 0.0, 1.0, square)
+    return np.minimum(np.maximum(share, 0.0), 1.0)
 
 
 def _arc_foot(arc: PieceArrays, points: Points) -> Floats:
@@ -156,10 +157,6 @@ def _sides(pieces: PieceArrays, line: PieceArrays, reach: Floats) -> Floats:
 
 def _clamped(fractions: Floats) -> Floats:
     return np.minimum(np.fmax(fractions, 0.0), 1.0)
-
-
-def _clipped(t: Floats) -> Floats:
-    return np.minimum(np.maximum(t, 0.0), 1.0)
 
 
 def feet(pieces: PieceArrays, other: PieceArrays) -> Floats:

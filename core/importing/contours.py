@@ -447,9 +447,12 @@ def _nested(contours: Sequence[Contour]) -> list[Contour]:
     listed = []
     for row in order:
         parent, depth = parents[row], len(inside[row])
-        contour = replace(closed[row], kind=_kind(depth), depth=depth)
-        if not contour.number or contour.kind is not closed[row].kind:
-            contour = _directed(contour)
+        kind = ContourKind.HOLE if depth % 2 else ContourKind.ISLAND if depth else ContourKind.OUTSIDE
+        contour = replace(closed[row], kind=kind, depth=depth)
+        if not contour.number or kind is not closed[row].kind:
+            # for climb milling with the tool on the left
+            wanted = Turn.CCW if kind is ContourKind.HOLE else Turn.CW
+            contour = started_at_usual_place(contour if contour.turn is wanted else reversed_contour(contour))
         problems = [f"touches or crosses chain {numbers[crossed[row]]}"] if row in crossed else []
         if len(closed) <= MAX_CROSSING_CHECK and crosses_itself(contour.pieces):
             problems.append("touches or crosses itself")
@@ -459,12 +462,6 @@ def _nested(contours: Sequence[Contour]) -> list[Contour]:
         )
     open_contours = sorted((contour for contour in contours if not contour.closed), key=_by_length)
     return listed + [replace(contour, number=len(listed) + row) for row, contour in enumerate(open_contours, 1)]
-
-
-def _kind(depth: int) -> ContourKind:
-    if depth % 2:
-        return ContourKind.HOLE
-    return ContourKind.ISLAND if depth else ContourKind.OUTSIDE
 
 
 def _by_size(contours: Sequence[Contour]) -> list[Contour]:
@@ -478,14 +475,6 @@ def _by_size(contours: Sequence[Contour]) -> list[Contour]:
 
 def _by_length(contour: Contour) -> tuple[float, ...]:
     return -round(contour.length, KEY_DECIMALS), *rounded(contour.start), *rounded(contour.pieces[-1].end)
-
-
-def _directed(contour: Contour) -> Contour:
-    """Direct a contour for climb milling with the tool on the left: a hole counterclockwise, any other clockwise."""
-    wanted = Turn.CCW if contour.kind is ContourKind.HOLE else Turn.CW
-    if contour.turn is not wanted:
-        contour = reversed_contour(contour)
-    return started_at_usual_place(contour)
 
 
 def _open_ends(contours: Sequence[Contour]) -> list[tuple[Point, int]]:

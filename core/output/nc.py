@@ -198,7 +198,12 @@ def _body(jobs: Sequence[Job], grid: Grid) -> Iterator[str]:
             coolant = job.coolant
             yield from comments(_title(a_pass, grid.unit))
             lines = [line for motion in a_pass.motions for line in writer.motion(motion)]
-            yield from _with_length(lines, a_pass.cutter.number) if changed else lines
+            if changed:
+                # the length offset stands in the block of the tool's first move, which goes to SAFE Z: on some controls
+                # G43 in a block of its own moves Z by the length at once
+                code, first = lines[0].split(" ", 1)
+                lines[0] = f"{code} G43 H{tool} {first}"
+            yield from lines
     yield from _coolant_change(coolant, Coolant.OFF)
     yield "M5"
     yield "M30"
@@ -214,24 +219,10 @@ def _coolant_change(now: Coolant, then: Coolant) -> Iterator[str]:
         yield "M7" if then is Coolant.MIST else "M8"
 
 
-def _with_length(lines: Sequence[str], tool: int) -> Iterator[str]:
-    """Yield the first moves of a tool, with its length offset in the block of the first, which goes to SAFE Z.
-
-    On some controls G43 in a block of its own moves Z by the length at once.
-    """
-    code, first = lines[0].split(" ", 1)
-    yield f"{code} G43 H{tool} {first}"
-    yield from lines[1:]
-
-
 def _title(a_pass: Pass, unit: Unit) -> str:
     stock = f" LEAVES {length_text(a_pass.stock, unit)} ON SIDE" if a_pass.stock > 0.0 else ""
     kind = " FINISH" if a_pass.finishing else ""
-    return f"BLOCK {a_pass.block}{kind} {_pass_number(a_pass)} Z {length_text(a_pass.level, unit)}{stock}"
-
-
-def _pass_number(a_pass: Pass) -> str:
-    """Return which side pass this is, and which peck of it, if there are several."""
-    side = (f"SIDE PASS {a_pass.side} OF {a_pass.sides}",) if a_pass.sides > 1 else ()
-    peck = (f"PECK {a_pass.number} OF {a_pass.count}",) if a_pass.count > 1 else ()
-    return " ".join((*side, *peck)) or "PASS 1 OF 1"
+    side = f" SIDE PASS {a_pass.side} OF {a_pass.sides}" if a_pass.sides > 1 else ""
+    peck = f" PECK {a_pass.number} OF {a_pass.count}" if a_pass.count > 1 else ""
+    which = f"{side}{peck}" or " PASS 1 OF 1"
+    return f"BLOCK {a_pass.block}{kind}{which} Z {length_text(a_pass.level, unit)}{stock}"

@@ -26,7 +26,7 @@ def jobs(derived: Derived) -> tuple[Job, ...]:
 def job(block: DerivedBlock, program: Program) -> Job:
     """Return one block's job; a value that is not known yet is zero and has a finding."""
     solved, work, tag = block.solved, block.paths, f"{block.lookahead.tag} {block.lookahead.value}"
-    finish_tool = _whole(block.block.finish_tool)
+    finish_tool = int(block.block.finish_tool.value) if isinstance(block.block.finish_tool, Number) else 0
     return Job(
         block=block.number,
         comp=str(block.block.cutter_comp),
@@ -78,10 +78,6 @@ def _notes(block: DerivedBlock, unit: Unit) -> Iterator[str]:
     if work.verdict.uncut:
         left, whole = (from_mm(length, unit) for length in (work.verdict.uncut_length, work.verdict.surface_length))
         yield f"UNCUT {show(left, Kind.LENGTH, unit)} OF {show(whole, Kind.LENGTH, unit)}"
-
-
-def _whole(typed: Typed) -> int:
-    return int(typed.value) if isinstance(typed, Number) else 0
 
 
 def _cutter(number: Typed, diameter: float | None, program: Program) -> Cutter | None:

@@ -288,10 +288,7 @@ def _sketches(block: DerivedBlock) -> PathParts:
 def _deleted(control: Compensated) -> PathParts:
     if not len(control.deleted):
         return NO_PARTS
-    sought, numbers = control.deleted.segments.copy(), control.contour.numbers
-    sought.sort()
-    nearest = sought.take(sought.searchsorted(numbers), mode="clip")
-    return single_pieces(control.contour, (nearest == numbers).nonzero()[0])
+    return single_pieces(control.contour, np.isin(control.contour.numbers, control.deleted.segments).nonzero()[0])
 
 
 def _current(block: DerivedBlock, segment: int | None) -> Path | None:

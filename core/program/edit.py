@@ -80,7 +80,9 @@ def type_field(program: Program, where: FormPlace, name: str, typed: Typed) -> E
         refusal = refusal or _lookahead_misfit(part, typed)
     if refusal:
         return refusal
-    edited = with_part(program, where, _typed_into(part, name, typed))
+    # a relative angle clears TANGENT
+    relative = name in ("angle", "start_angle") and isinstance(typed, Relative)
+    edited = with_part(program, where, changed(part, {name: typed, **({"tangent": False} if relative else {})}))
     if isinstance(part, Block) or name in NONGEOMETRIC_FIELDS or type(typed) is type(getattr(part, name)):
         return edited
     return _picked_anew(program, edited, where)
@@ -422,12 +424,6 @@ def _part(program: Program, where: FormPlace) -> Block | Segment:
 
 def _field(part: Block | Segment, name: str) -> Field:
     return field_of(Form.START if isinstance(part, Block) else form_of(part), name)
-
-
-def _typed_into(part: Block | Segment, name: str, typed: Typed) -> Block | Segment:
-    """Put a value into a field; a relative angle clears TANGENT."""
-    relative = name in ("angle", "start_angle") and isinstance(typed, Relative)
-    return changed(part, {name: typed, **({"tangent": False} if relative else {})})
 
 
 def with_part(program: Program, where: FormPlace, part: Block | Segment) -> Program:

@@ -10,7 +10,7 @@ import re
 import tomllib
 from collections.abc import Callable, Iterator, Mapping
 from dataclasses import dataclass, replace
-from functools import cache, partial
+from functools import partial
 from typing import Any, Final, TypeVar
 
 from core.program.fields import (
@@ -216,7 +216,8 @@ def _with_rapid_feed(table: _Table) -> _Table:
 
 def _values(table: _Table, form: Form, *others: str) -> dict[str, Any]:
     """Return what is typed on a form by name; refuse any key that is neither a field's nor one of the others."""
-    table.only(_keys(form, *others))
+    relative = (field.name + RELATIVE_SUFFIX for field in STORED_FIELDS[form] if field.relative)
+    table.only((*others, *(field.name for field in STORED_FIELDS[form]), *relative, UNREAD_TABLE))
     values: dict[str, Any] = dict(_numbers(table, form))
     for field in FIELDS_OF_FORM[form]:
         if field.kind is Kind.TEXT and field.name in table.data:
@@ -254,12 +255,6 @@ def _unread(table: _Table, field: Field) -> Unread:
     if not isinstance(text, str) or not text.strip():
         raise table.fault(field.name, f"{field.name} must be the text that was typed, in quotes.")
     return Unread(text, unread_reason(text, field, table.unit))
-
-
-@cache
-def _keys(form: Form, *others: str) -> tuple[str, ...]:
-    relative = (field.name + RELATIVE_SUFFIX for field in STORED_FIELDS[form] if field.relative)
-    return (*others, *(field.name for field in STORED_FIELDS[form]), *relative, UNREAD_TABLE)
 
 
 def _tools(top: _Table) -> tuple[Tool, ...]:

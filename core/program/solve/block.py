@@ -49,7 +49,8 @@ def solve_block(block: Block, program: Program) -> SolvedBlock:
     """Return the block with its blanks calculated; problems become findings and are never raised."""
     start = _start(block, program)
     drafts, runs = _drafts(block, program.unit, start)
-    segments = _segments(block, drafts)
+    corners, adjusted = _corners(block, drafts), _adjustment(drafts)
+    segments = tuple(_segment(index, draft, corners, adjusted.get(index)) for index, draft in enumerate(drafts))
     determined = list(takewhile(lambda segment: segment.start is not None and segment.end is not None, segments))
     known = start.reading.known
     return SolvedBlock(
@@ -104,13 +105,6 @@ def _drafts(block: Block, unit: Unit, start: _Start) -> tuple[list[Draft], tuple
         findings = (*place_faults(contour, index), *item.result.findings)
         drafts[index] = replace(item, result=replace(item.result, findings=findings))
     return drafts, tuple(runs)
-
-
-def _segments(block: Block, drafts: Sequence[Draft]) -> tuple[SolvedSegment, ...]:
-    """Return every segment, with blends and chamfers inserted."""
-    corners = _corners(block, drafts)
-    adjusted = _adjustment(drafts)
-    return tuple(_segment(index, draft, corners, adjusted.get(index)) for index, draft in enumerate(drafts))
 
 
 def _corners(block: Block, drafts: Sequence[Draft]) -> Corners:

@@ -104,6 +104,10 @@ class Run:
 
 Numbers = list[float | None]
 
+ARRIVING: Final = 1
+DEPARTING: Final = -1
+"""The heading at a joint in whose frame an anchor is given: that of the element before it, or of the one after."""
+
 FULL_TURN_DOUBT: Final = 1e-6
 """Radians from 0 or a full turn within which two headings do not give a sweep: it could be either."""
 
@@ -280,18 +284,13 @@ class Branch:
             self.put_heading_at(self.heading_in, index, before + link)
         elif after is not None:
             self.put_heading_at(self.heading_out, index - 1, after - link)
-        if link == 0.0 and self.joint(index) is None:
-            self._touching(index)
-
-    def _touching(self, index: int) -> None:
-        """Derive a joint as the touch point of two known circles."""
         first, second = self.center(index - 1), self.center(index)
         rho, sigma = self.rho[index - 1], self.rho[index]
-        if first is None or second is None or rho is None or sigma is None:
-            return
-        touch = touch_point(first, rho, second, sigma)
-        if touch is not None:
-            self.put_joint(index, touch[0])
+        tangent = link == 0.0 and self.joint(index) is None
+        if tangent and first is not None and second is not None and rho is not None and sigma is not None:
+            touch = touch_point(first, rho, second, sigma)
+            if touch is not None:
+                self.put_joint(index, touch[0])
 
     def _relative(self, index: int) -> None:
         """Derive points from relative coordinates, from either end; both of a center also give radius and heading."""
@@ -378,9 +377,9 @@ class Branch:
         both = (self.heading_out[index - 1], 0.0 if index == last else self.heading_in[index])
         if self.joint(index) is not None and None not in both:
             return
-        sides = [(self.heading_out, index - 1, self.arriving(index))]
+        sides = [(self.heading_out, index - 1, self.anchors(index, ARRIVING))]
         if index < last:
-            sides.append((self.heading_in, index, self.departing(index)))
+            sides.append((self.heading_in, index, self.anchors(index, DEPARTING)))
         for headings, element, anchors in sides:
             heading = headings[element]
             for anchor in anchors:
@@ -410,16 +409,12 @@ class Branch:
 
     # anchors, loci and ties
 
-    def arriving(self, index: int) -> Iterator[Anchor]:
-        """Return the anchors of a joint in the frame of the contour's heading as it arrives there."""
-        return self._anchors(index, index - 1, 1)
+    def anchors(self, index: int, sense: int) -> Iterator[Anchor]:
+        """Yield a joint's anchors in the frame of the contour's heading as it arrives there or departs from there.
 
-    def departing(self, index: int) -> Iterator[Anchor]:
-        """Return the anchors of a joint in the frame of the contour's heading as it departs from there."""
-        return self._anchors(index, index, -1)
-
-    def _anchors(self, index: int, element: int, sense: int) -> Iterator[Anchor]:
-        """Yield a joint's anchors from the element that ends (`sense` 1) or begins (-1) there, and the joint itself."""
+        They are those of the element that ends or begins there, and the joint itself.
+        """
+        element = index - 1 if sense == ARRIVING else index
         if 0 <= element < len(self.run.elements):
             center, rho = self.center(element), self.rho[element]
             if center is not None and rho is not None:
@@ -436,26 +431,21 @@ class Branch:
             return self.rho[element] is not None and self.sweep[element] is not None
         return self.length[element] is not None
 
-    def arriving_linked(self, index: int) -> Iterator[Anchor]:
-        """Return the anchors of the joint before element `index`, in the frame of that element's heading there."""
-        return self._across(index, self.arriving(index), 1)
+    def anchors_across(self, index: int, sense: int) -> Iterator[Anchor]:
+        """Yield a joint's anchors from before it (ARRIVING) in the frame of the heading after it, or the other way.
 
-    def departing_linked(self, index: int) -> Iterator[Anchor]:
-        """Return the anchors of joint `index`, in the frame of the final heading of the element before it."""
-        return self._across(index, self.departing(index), -1)
-
-    def _across(self, index: int, anchors: Iterator[Anchor], sense: int) -> Iterator[Anchor]:
-        """Yield a joint's anchors in the frame of the heading on its other side, if the angle between is typed."""
+        They need the typed angle between the two headings, unless the joint is known.
+        """
         joint, link = self.joint(index), self.link(index)
         if joint is not None:
             yield Anchor(joint, 0.0, 0.0)
         elif link is not None:
-            yield from (anchor.turned(sense * link) for anchor in anchors)
+            yield from (anchor.turned(sense * link) for anchor in self.anchors(index, sense))
 
     def _carried(self, element: int, sense: int) -> Iterator[Anchor]:
-        """Yield the anchors of an element's start carried to its end (`sense` 1), or of its end carried back (-1)."""
+        """Yield the anchors of an element's start carried to its end (ARRIVING), or of its end carried back."""
         rho, turn = self.rho[element] or 0.0, self.run.elements[element].turn
-        for anchor in self.arriving_linked(element) if sense > 0 else self.departing_linked(element + 1):
+        for anchor in self.anchors_across(element if sense == ARRIVING else element + 1, sense):
             if turn:
                 swept = sense * turn * (self.sweep[element] or 0.0)
                 at_center = Anchor(anchor.at, anchor.along, anchor.left + rho).turned(swept)
@@ -466,9 +456,9 @@ class Branch:
     def line_ties(self, index: int) -> Iterator[tuple[Point, float, str]]:
         """Yield points A at known distances left of a LINE: (A, n.A - p, the end of the LINE at its foot, or "")."""
         element = self.run.elements[index]
-        for anchor in self.arriving_linked(index):
+        for anchor in self.anchors_across(index, ARRIVING):
             yield anchor.at, -anchor.left, "" if anchor.along else "start"
-        for anchor in self.departing_linked(index + 1):
+        for anchor in self.anchors_across(index + 1, DEPARTING):
             yield anchor.at, -anchor.left, "" if anchor.along else "end"
         point, distance = element.point, element.known.get("point_dist", 0.0)
         if point is not None and (distance == 0.0 or self.point_side[index] is not None):
@@ -533,7 +523,7 @@ class Branch:
             if line is not None and not self._keeps_coordinate(element, line):
                 yield line
         # circles of elements come before circles about a joint
-        anchors = [*self.arriving(index), *self.departing(index)] if elements else []
+        anchors = [*self.anchors(index, ARRIVING), *self.anchors(index, DEPARTING)] if elements else []
         for anchor in sorted(anchors, key=lambda anchor: anchor.along != 0.0):
             if anchor.tied > JOINED:
                 yield Circle(anchor.at, anchor.tied)

@@ -19,7 +19,7 @@ from typing import Final, NamedTuple
 from core.geometry.oriented import Locus, OrientedLine, direction, headings_at_distances, meeting, normal
 from core.geometry.piece import Point
 from core.program.solve.run import reasons
-from core.program.solve.run.branch import Anchor, Branch, DeadEnd
+from core.program.solve.run.branch import ARRIVING, DEPARTING, Anchor, Branch, DeadEnd
 from core.tolerance import ARC_RADII, GRAZE, JOINED, MIN_INDEPENDENT_SINE
 
 Point3 = tuple[float, float, float]
@@ -127,8 +127,8 @@ def _conditions(branch: Branch, index: int, origin: Point) -> tuple[list[Row], l
         rows.append((0.0, 1.0, 0.0, y - origin[1]))
     if rho is not None:
         rows.append((0.0, 0.0, 1.0, rho))
-    at_start = _at_joint(branch, index, branch.heading_in[index], branch.arriving_linked(index), origin)
-    at_end = _at_joint(branch, index + 1, branch.heading_out[index], branch.departing_linked(index + 1), origin)
+    at_start = _at_joint(branch, index, branch.heading_in[index], ARRIVING, origin)
+    at_end = _at_joint(branch, index + 1, branch.heading_out[index], DEPARTING, origin)
     for condition in (*at_start, *at_end, *_swept(branch, index, origin)):
         if isinstance(condition, Quadric):
             quadrics.append(condition)
@@ -141,11 +141,11 @@ def _conditions(branch: Branch, index: int, origin: Point) -> tuple[list[Row], l
 
 
 def _at_joint(
-    branch: Branch, joint: int, heading: float | None, anchors: Iterator[Anchor], origin: Point
+    branch: Branch, joint: int, heading: float | None, sense: int, origin: Point
 ) -> Iterator[Row | Quadric]:  # fmt: skip
     """Yield the conditions that the circle passes through a joint."""
     if heading is None:
-        yield from (_cone(anchor, origin) for anchor in anchors)
+        yield from (_cone(anchor, origin) for anchor in branch.anchors_across(joint, sense))
         return
     point, (nx, ny) = branch.joint(joint), normal(heading)
     # the joint is at c - rho n
@@ -413,20 +413,13 @@ def _offset_side(branch: Branch) -> Ways | None:
             continue
         target = parallel if isinstance(parallel, OrientedLine) else branch.line(parallel)
         if target is not None:
-            return _offset_ways(branch, index, target, offset)
+            same = abs((heading - target.heading + pi) % (2.0 * pi) - pi) < pi / 2.0
+            ways = [branch.chosen(0), branch.chosen(1)] if offset else [branch.copy()]
+            for way, side in zip(ways, (1.0, -1.0), strict=False):
+                shifted = target.offset + side * offset
+                way.put(way.offset, index, shifted if same else -shifted)
+            return ways
     return None
-
-
-def _offset_ways(branch: Branch, index: int, target: OrientedLine, offset: float) -> Ways:
-    heading = branch.heading_in[index] or 0.0
-    same = abs((heading - target.heading + pi) % (2.0 * pi) - pi) < pi / 2.0
-    ways = []
-    for root, side in enumerate((1.0, -1.0) if offset else (1.0,)):
-        way = branch.chosen(root) if offset else branch.copy()
-        shifted = target.offset + side * offset
-        way.put(way.offset, index, shifted if same else -shifted)
-        ways.append(way)
-    return ways
 
 
 def _along_axis(branch: Branch) -> Ways | None:
