@@ -18,7 +18,7 @@ import shapely
 from core.geometry.path import Path, chords_of
 from core.geometry.piece import Arc, Line, Piece, Point, Turn
 from core.importing.nesting import CHORD_ERROR
-from core.importing.nodes import KEY_DECIMALS, Groups, Nodes, exact_nodes, nodes_of
+from core.importing.nodes import KEY_DECIMALS, Groups, Nodes, nodes_of
 
 MAX_OVERLAP_DISTANCE: Final = 0.01
 """Largest distance in millimeters of equal or collinear pieces, even if TOLERANCE is larger."""
@@ -109,7 +109,7 @@ def _without_tiny(items: list[LayeredPiece], tolerance: float) -> list[LayeredPi
     if not small:
         return items
     pieces = [items[row].piece for row in small]
-    nodes = exact_nodes(pieces, tolerance)
+    nodes = nodes_of(pieces, tolerance, exact=True)
     dropped = {row for row, (start, end) in zip(small, nodes.of_piece, strict=True) if start == end}
     for run in _runs(nodes):
         run_pieces = [pieces[member] for member in run]
@@ -232,7 +232,7 @@ def _without_partial_copies(
 
     A contour that runs near another one for a while keeps its pieces: without some of them it would be open.
     """
-    runs = _runs(exact_nodes([item.piece for item in items], tolerance))
+    runs = _runs(nodes_of([item.piece for item in items], tolerance, exact=True))
     run_of = {row: number for number, run in enumerate(runs) for row in run}
     run_sets = [{run_of[row] for row in rows} for rows in copies]
     unlike = frozenset[int]().union(*(numbers for numbers in run_sets if len(numbers) == 1))

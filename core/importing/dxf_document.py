@@ -10,20 +10,18 @@ from __future__ import annotations
 import io
 import logging
 import re
+from collections import Counter
 from collections.abc import Iterable, Iterator
 from contextlib import suppress
-from typing import TYPE_CHECKING, Final
+from dataclasses import dataclass, field
+from itertools import pairwise
+from typing import TYPE_CHECKING, Final, NamedTuple
 
 from core.importing.drawing import MAX_ENTITIES, DrawingError
 
 if TYPE_CHECKING:
     from ezdxf.document import Drawing as Document
     from ezdxf.lldxf.types import DXFTag
-
-from collections import Counter
-from dataclasses import dataclass, field
-from itertools import pairwise
-from typing import NamedTuple
 
 BINARY_MARK: Final = b"AutoCAD Binary DXF\r\n\x1a\x00"
 

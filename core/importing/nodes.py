@@ -60,21 +60,15 @@ class Groups:
             self.parent[max(first, second)] = min(first, second)
 
 
-def nodes_of(pieces: Sequence[Piece], tolerance: float) -> Nodes:
-    """Return the nodes of pieces, none of them a full circle."""
+def nodes_of(pieces: Sequence[Piece], tolerance: float, *, exact: bool = False) -> Nodes:
+    """Return the nodes of pieces, none of them a full circle; if `exact` by position alone: loose ends stay loose."""
     ends = [point for piece in pieces for point in (piece.start, piece.end)]
     groups = _same_points(ends, min(tolerance, SAME_POINT))
     made = _numbered(ends, groups)
-    if tolerance > SAME_POINT:
+    if tolerance > SAME_POINT and not exact:
         _join_loose(pieces, made, groups, tolerance)
         made = _numbered(ends, groups)
     return made
-
-
-def exact_nodes(pieces: Sequence[Piece], tolerance: float) -> Nodes:
-    """Return the nodes by position alone: loose ends stay loose."""
-    ends = [point for piece in pieces for point in (piece.start, piece.end)]
-    return _numbered(ends, _same_points(ends, min(tolerance, SAME_POINT)))
 
 
 def _same_points(ends: Sequence[Point], slack: float) -> Groups:

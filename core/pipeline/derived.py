@@ -10,21 +10,17 @@ from enum import StrEnum
 from typing import TYPE_CHECKING
 
 from core.advice.block_paths import BlockPaths
+from core.advice.field_findings import field_findings, typed_lookahead_warning
+from core.comp.lookahead import MAX_LOOKAHEAD, MIN_LOOKAHEAD, calculated
 from core.finding import Finding, Severity
 from core.geometry.piece import Side
-from core.program.model import Block, Program
+from core.program.model import Block, CutterComp, Number, Program
+from core.program.solve.block import solve_block
+from core.program.solve.reading import shared_findings
 from core.program.solve.solved import SolvedBlock
 
 if TYPE_CHECKING:
     from core.geometry.path import Path
-
-from collections.abc import Iterable
-
-from core.advice.field_findings import field_findings, typed_lookahead_warning
-from core.comp.lookahead import MAX_LOOKAHEAD, MIN_LOOKAHEAD, calculated
-from core.program.model import CutterComp, Number
-from core.program.solve.block import solve_block
-from core.program.solve.reading import shared_findings
 
 
 class Tag(StrEnum):
@@ -97,7 +93,7 @@ def solve_block_fields(program: Program, number: int) -> DerivedBlock:
     """Return block `number`, counted from 1, with its blanks and its look-ahead calculated, without paths."""
     block = program.blocks[number - 1]
     solved = solve_block(block, program)
-    lookahead = _look_ahead(block, solved, solved.every_finding)
+    lookahead = _look_ahead(block, solved)
     comp = block.cutter_comp
     side = None if comp is CutterComp.ON else Side(comp.removeprefix("PROFILE "))
     diameter = solved.finish_diameter if solved.finish_diameter is not None else solved.tool_diameter
@@ -121,12 +117,10 @@ def solve_block_fields(program: Program, number: int) -> DerivedBlock:
     )
 
 
-def _look_ahead(block: Block, solved: SolvedBlock, findings: Iterable[Finding]) -> LookAhead:
+def _look_ahead(block: Block, solved: SolvedBlock) -> LookAhead:
     """Return the look-ahead in force: the operator's value, or the calculated one."""
-    empty = sum(finding.code == "ZERO_LENGTH" for finding in findings)
-    value = calculated(len(solved.segments) - empty, closed=solved.closed)
-    match block.lookahead:
-        case Number(typed) if MIN_LOOKAHEAD <= typed <= MAX_LOOKAHEAD:
-            return LookAhead(int(typed), Tag.USR, value)
-        case _:
-            return LookAhead(value, Tag.CAL, value)
+    empty = sum(finding.code == "ZERO_LENGTH" for finding in solved.every_finding)
+    value, typed = calculated(len(solved.segments) - empty, closed=solved.closed), block.lookahead
+    if isinstance(typed, Number) and MIN_LOOKAHEAD <= typed.value <= MAX_LOOKAHEAD:
+        return LookAhead(int(typed.value), Tag.USR, value)
+    return LookAhead(value, Tag.CAL, value)
