@@ -42,7 +42,7 @@ from core.pipeline.jobs import MAX_SIDE_PASSES, job, parameter, stocks
 from core.program.model import PathChoice, Program
 from core.progress import Progress, part, silent
 from core.units import Kind, decimals_shown, from_mm, to_mm
-from core.verify.judge import judge_together
+from core.verify.judge import judge
 from core.verify.other_contours import ContourCut, Sweep, Wall, cuts_into_other_contours
 from core.verify.report import Names
 from core.verify.verdict import Verdict
@@ -133,7 +133,7 @@ def _paths(
 
 def _verdict(setup: CuttingSetup, radius: float, loops: tuple[CenterPath, ...]) -> Verdict:
     """Return the verdict on a cutter that runs these loops."""
-    return judge_together(setup.surface, setup.side, radius, [loop.whole for loop in loops])
+    return judge(setup.surface, setup.side, radius, [loop.whole for loop in loops])
 
 
 def _with_findings(block: DerivedBlock, paths: BlockPaths, program: Program) -> DerivedBlock:

@@ -24,13 +24,16 @@ def judge(
     surface: Path,
     side: Side,
     radius: float,
-    center: Path,
+    center: Path | Sequence[Path],
     arc_tolerance: float = ARC_RADII,
     *,
     leads: Leads = Leads.SEGMENTS,
     measures_uncut: bool = True,
 ) -> Verdict:
     """Judge what a cutter of this radius does to `surface` when its center runs along `center`, lead moves included.
+
+    `center` may be several paths that are all cut, such as the loops of one contour; a gouge's `path_piece` then counts
+    the pieces of all of them, in order.
 
     Every distance between lines and arcs is exact.  A path that is nearer than the radius by no more than GOUGE plus
     the slack of uneven arcs does not gouge: that is rounding.  `leads` says which parts of the surface's ends may
@@ -42,23 +45,7 @@ def judge(
 
     Without `measures_uncut` the verdict says nothing of what stays uncut, which takes most of the time.
     """
-    return judge_together(surface, side, radius, (center,), arc_tolerance, leads=leads, measures_uncut=measures_uncut)
-
-
-def judge_together(
-    surface: Path,
-    side: Side,
-    radius: float,
-    centers: Sequence[Path],
-    arc_tolerance: float = ARC_RADII,
-    *,
-    leads: Leads = Leads.SEGMENTS,
-    measures_uncut: bool = True,
-) -> Verdict:
-    """Judge several center paths that are all cut, such as the loops of one contour.
-
-    A gouge's `path_piece` counts the pieces of all of them, in order.
-    """
+    centers = (center,) if isinstance(center, Path) else center
     if not measurable(radius, surface, *centers):
         return _unjudged(radius)
     if not len(surface):
@@ -75,7 +62,7 @@ def judge_prepared(
     *,
     measures_uncut: bool = True,
 ) -> Verdict:
-    """Judge like `judge_together`, on a surface that is already prepared."""
+    """Judge like `judge`, on a surface that is already prepared."""
     if not measurable(radius, *centers):
         return _unjudged(radius)
     with np.errstate(all="ignore"):

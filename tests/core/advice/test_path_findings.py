@@ -28,7 +28,7 @@ from core.finding import Finding, Severity
 from core.geometry.path import Path
 from core.geometry.piece import Arc, Line, Piece, Side, Turn
 from core.units import Unit, sentence
-from core.verify.judge import judge_together
+from core.verify.judge import judge
 from tests.core.advice.works import work
 from tests.core.comp.contours import lines
 
@@ -253,7 +253,7 @@ def test_an_inside_arc_smaller_than_the_tool_is_named(tool: float, told: str | N
     before: list[Piece] = [Line((0.0, 0.0), (0.0, 4.0)), Line((0.0, 4.0), (2.25, 4.0))]
     pieces = [*before, notch, Line((3.75, 4.0), (5.75, 4.0)), corner, Line((6.0, 3.75), (6.0, 0.0))]
     plate = Path.from_pieces([*pieces, Line((6.0, 0.0), (0.0, 0.0))], [float(number) for number in range(1, 8)])
-    verdict = judge_together(plate, Side.LEFT, tool, best_path(plate, Side.LEFT, tool, closed=True).loops)
+    verdict = judge(plate, Side.LEFT, tool, best_path(plate, Side.LEFT, tool, closed=True).loops)
     findings = tight_arcs(verdict, plate, Side.LEFT, tool)
     assert [sentence(finding, Unit.MM).partition(" To cut")[0] for finding in findings] == ([told] if told else [])
     assert all((finding.segment, finding.value) == (3.0, 1.5) for finding in findings)

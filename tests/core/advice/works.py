@@ -7,7 +7,7 @@ from core.comp.compensate import compensate
 from core.comp.compensated import CenterPath
 from core.geometry.path import Path
 from core.geometry.piece import Side
-from core.verify.judge import judge_together
+from core.verify.judge import judge
 
 
 def work(
@@ -26,7 +26,7 @@ def work(
     def cut(size: float) -> tuple[RoughPass, tuple[CenterPath, ...]]:
         control = compensate(contour, side, size, lookahead, closed=closed, blend=blend, overlap=overlap)
         loops = (CenterPath(control.path, control.lead_in, control.lead_out),) if len(control.path) else ()
-        verdict = judge_together(contour, side, size, [loop.whole for loop in loops])
+        verdict = judge(contour, side, size, [loop.whole for loop in loops])
         return RoughPass(size - radius, loops, control, verdict), loops
 
     finish, loops = cut(radius)

@@ -12,7 +12,7 @@ from numpy.random import Generator
 from core.comp.best_path.best_path import BestPath, best_path
 from core.geometry.path import Floats, Path
 from core.geometry.piece import Arc, Line, Piece, Point, Side, Turn
-from core.verify.judge import judge_together
+from core.verify.judge import judge
 
 DECIMALS = (3, 4, 5, 6, 7)
 
@@ -43,7 +43,7 @@ class Drawing:
     def gouges(self, decimals: int) -> bool:
         """Does the judge find a gouge, or a piece on the part's side, in the best path of the rounded contour?"""
         best = self.best(decimals)
-        verdict = judge_together(self.rounded(decimals), self.side, self.radius, best.loops)
+        verdict = judge(self.rounded(decimals), self.side, self.radius, best.loops)
         return not verdict.judged or bool(verdict.gouges) or bool(verdict.wrong_side)
 
 

@@ -9,7 +9,7 @@ import pytest
 from core.comp.best_path.best_path import best_path
 from core.geometry.path import Path
 from core.geometry.piece import Arc, Line, Side, Turn
-from core.verify.judge import judge_together
+from core.verify.judge import judge
 from tests.core.comp.best_truth import assert_true, distance
 from tests.core.comp.contours import lines
 
@@ -58,7 +58,7 @@ def test_arcs_of_kilometers_have_a_path_on_both_sides(size: float, inch: bool):
             for side in Side:
                 best = best_path(arcs, side, 3.0, closed=bool((points[0] == points[-1]).all()))
                 assert [finding.code for finding in best.findings] == []
-                verdict = judge_together(arcs, side, 3.0, best.loops)
+                verdict = judge(arcs, side, 3.0, best.loops)
                 assert verdict.judged
                 assert not verdict.gouges
                 assert not verdict.uncut

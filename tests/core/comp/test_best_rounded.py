@@ -12,7 +12,7 @@ from core.comp.best_path.best_path import BestPath, best_path
 from core.finding import Severity
 from core.geometry.path import Path
 from core.geometry.piece import Arc, Line, Piece, Side, Turn
-from core.verify.judge import judge_together
+from core.verify.judge import judge
 from tests.core.comp.rounded import DECIMALS, drawing, widest_end_gap
 
 
@@ -31,7 +31,7 @@ def assert_clean(contour: Path, side: Side, radius: float, best: BestPath) -> No
         numbers = [*loop.numbers, loop.numbers[0]]
         assert sum(following < number for number, following in pairwise(numbers)) <= 1, "past START once"
     assert "BEST_BROKEN" not in {finding.code for finding in best.findings}
-    verdict = judge_together(contour, side, radius, best.loops)
+    verdict = judge(contour, side, radius, best.loops)
     assert (verdict.judged, verdict.gouges, verdict.wrong_side) == (True, (), ())
 
 
@@ -70,7 +70,7 @@ def test_a_last_end_that_misses_start_by_a_rounding_leaves_no_side_uncut(miss):
     contour = Path.from_pieces([Line(*ends) for ends in pairwise(corners)])
     best = best_path(contour, Side.LEFT, 5.0, closed=True)
     # a radius on both sides of each corner
-    assert judge_together(contour, Side.LEFT, 5.0, best.loops).uncut_length == pytest.approx(40.0, abs=0.01)
+    assert judge(contour, Side.LEFT, 5.0, best.loops).uncut_length == pytest.approx(40.0, abs=0.01)
 
 
 def test_a_tangent_contour_joins_nothing():

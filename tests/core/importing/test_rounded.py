@@ -27,7 +27,7 @@ from core.pipeline.post import post_control_program
 from core.program.model import Number, Program, Tool
 from core.program.solve.block import solve_block
 from core.units import Unit
-from core.verify.judge import judge_together
+from core.verify.judge import judge
 from tests.core.importing.drawings import dxf, ellipse, entity, line, listed
 
 SEEDS = range(6)
@@ -100,7 +100,7 @@ def test_a_rounded_drawing_has_closed_best_paths_and_clean_verdicts(decimals: in
             best = best_path(rounded, side, 5.0, closed=True)
             assert len(best.loops) == len(true_path.loops), (seed, side)
             assert all(best.closed), (seed, side)
-            verdict = judge_together(rounded, side, 5.0, best.loops)
+            verdict = judge(rounded, side, 5.0, best.loops)
             assert (verdict.judged, verdict.gouges, verdict.wrong_side) == (True, (), ()), (seed, side)
             judged += 1
     assert judged == 2 * len(SEEDS)

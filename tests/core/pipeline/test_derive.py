@@ -15,7 +15,7 @@ from core.pipeline.jobs import stocks
 from core.program.edit import set_unit
 from core.program.model import CutterComp, LineSegment, Number, PathChoice, ProgramParameters, Unread, changed
 from core.units import Unit, sentence
-from core.verify.judge import judge_together
+from core.verify.judge import judge
 from tests.core.pipeline.parts import MID_SIDE_SQUARE, NOTCH, OUTSIDE_SQUARE, OVER_RUN_SQUARE, block, program
 
 IN = 25.4
@@ -284,7 +284,7 @@ def test_a_path_that_leaves_the_part_and_turns_back_is_reported():
     corners = (start, (0.3 * IN, radius), (0.35 * IN, 2 * radius), (0.4 * IN, radius), (0.2 * IN, radius), end)
     path = Path.of(np.array(corners), np.array(corners[:-1]), np.zeros(5, np.int8), np.ones(5))
     loop = CenterPath(path, blend_in(path, Side.LEFT, 1.0), blend_out(path, Side.LEFT, 1.0, 0.0, closed=False))
-    verdict = judge_together(work.surface, Side.LEFT, radius, [loop.whole])
+    verdict = judge(work.surface, Side.LEFT, radius, [loop.whole])
     findings = path_findings(replace(work, loops=(loop,), verdict=verdict))
     against, away = (finding for finding in findings if finding.code in ("AWAY", "BACKWARDS"))
     assert against.text == "1 move runs against the direction of the contour."

@@ -6,14 +6,14 @@ import pytest
 
 from core.geometry.path import EMPTY, Path
 from core.geometry.piece import Arc, Line, Side, Turn
-from core.verify.judge import judge, judge_together
+from core.verify.judge import judge
 from core.verify.verdict import Approach
 
 WALLS = Path.from_pieces([Line((0, 0), (10, 0)), Line((10, 0), (10, 10))])
 
 
 def closest_approach(surface: Path, centers: list[Path], radius: float = 1.0) -> Approach | None:
-    return judge_together(surface, Side.LEFT, radius, centers).closest
+    return judge(surface, Side.LEFT, radius, centers).closest
 
 
 def test_a_path_beside_a_corner_is_nearest_where_it_begins():

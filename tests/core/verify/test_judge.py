@@ -10,7 +10,7 @@ import pytest
 from core.geometry.path import EMPTY, Path
 from core.geometry.piece import Arc, Line, Piece, Side, Turn
 from core.tolerance import GOUGE
-from core.verify.judge import judge, judge_together
+from core.verify.judge import judge
 from tests.core.verify.shapes import around, circle, lines, moved, square
 
 R = 0.25
@@ -328,7 +328,7 @@ def test_loops_that_are_cut_together_share_one_verdict() -> None:
         Path.from_pieces([Arc((0, 0.75), (0, -0.75), (0, 0), Turn.CCW)]),
     ]
     alone = [judge(ring, Side.LEFT, 0.25, loop) for loop in halves]
-    together = judge_together(ring, Side.LEFT, 0.25, halves)
+    together = judge(ring, Side.LEFT, 0.25, halves)
     assert all(verdict.uncut_length == pytest.approx(pi, abs=1e-6) for verdict in alone)
     assert together.clean
     assert together.uncut == ()
@@ -337,7 +337,7 @@ def test_loops_that_are_cut_together_share_one_verdict() -> None:
 def test_piece_numbers_of_gouges_continue_in_the_second_loop() -> None:
     wall = Path.from_pieces([Line((0, 0), (10, 0))])
     loops = [Path.from_pieces([Line((0, 1), (4, 1))]), Path.from_pieces([Line((5, 0.5), (9, 0.5))], [7.0])]
-    (gouge,) = judge_together(wall, Side.LEFT, 1.0, loops).gouges
+    (gouge,) = judge(wall, Side.LEFT, 1.0, loops).gouges
     assert (gouge.path_piece, gouge.path_number) == (1, 7.0)
     assert gouge.depth == pytest.approx(0.5)
 
@@ -346,11 +346,11 @@ def test_piece_numbers_of_gouges_continue_in_the_second_loop() -> None:
 def test_gouges_at_the_end_of_a_loop_and_the_start_of_the_next_are_two(surface: Path) -> None:
     """The first loop ends 1 behind the left wall; the second begins 2.9 behind it, with all of the cutter."""
     first, second = lines((-6, 5), (1, 5)), lines((2.9, 12), (10, 12))
-    verdict = judge_together(surface, Side.RIGHT, 3.0, (first, second))
+    verdict = judge(surface, Side.RIGHT, 3.0, (first, second))
     assert [gouge.path_piece for gouge in verdict.gouges] == [1, 0]
     assert [gouge.depth for gouge in verdict.gouges] == pytest.approx([6.0, 4.0])
     assert [gouge.extent for gouge in verdict.gouges] == pytest.approx([0.1, 4.0], abs=1e-5)
-    alone = judge_together(surface, Side.RIGHT, 3.0, (first, lines((9, 12), (10, 12))))
+    alone = judge(surface, Side.RIGHT, 3.0, (first, lines((9, 12), (10, 12))))
     assert [gouge.depth for gouge in alone.gouges] == pytest.approx([4.0])
 
 
@@ -358,7 +358,7 @@ def test_a_gouge_across_the_start_of_a_loop_is_one_gouge() -> None:
     wall = lines((-20, 0), (20, 0))
     loops = [lines((x, 0.5), (x + 2, 3), (x - 2, 3), (x, 0.5)) for x in (-8, 0, 8)]
     alone = [judge(wall, Side.LEFT, 1.0, loop).gouges for loop in loops]
-    together = judge_together(wall, Side.LEFT, 1.0, loops).gouges
+    together = judge(wall, Side.LEFT, 1.0, loops).gouges
     assert [len(gouges) for gouges in alone] == [1, 1, 1]
     assert [gouge.extent for gouge in together] == pytest.approx([gouge.extent for (gouge,) in alone])
     assert [gouge.path_piece for gouge in together] == [0, 3, 6]
@@ -366,18 +366,18 @@ def test_a_gouge_across_the_start_of_a_loop_is_one_gouge() -> None:
 
 def test_all_is_uncut_without_a_loop() -> None:
     wall = Path.from_pieces([Line((0, 0), (10, 0))])
-    assert judge_together(wall, Side.LEFT, 1.0, ()).uncut_length == pytest.approx(10.0)
+    assert judge(wall, Side.LEFT, 1.0, ()).uncut_length == pytest.approx(10.0)
 
 
 def test_loops_that_cannot_be_judged_are_never_clean() -> None:
     wall = Path.from_pieces([Line((0, 0), (10, 0))])
     lost = Path.from_pieces([Line((0, 1), (nan, 1))])
-    assert not judge_together(wall, Side.LEFT, 1.0, [Path.from_pieces([Line((0, 1), (10, 1))]), lost]).clean
+    assert not judge(wall, Side.LEFT, 1.0, [Path.from_pieces([Line((0, 1), (10, 1))]), lost]).clean
 
 
 def test_piece_numbers_of_several_loops_count_pieces_without_length() -> None:
     still = lines((1, 1), (1, 1), (1.2, 1))
-    verdict = judge_together(square(), Side.LEFT, R, (still, lines((1, 1), (1, 0.1))))
+    verdict = judge(square(), Side.LEFT, R, (still, lines((1, 1), (1, 0.1))))
     assert [gouge.path_piece for gouge in verdict.gouges] == [2]
 
 

@@ -14,7 +14,7 @@ from core.comp.compensate import compensate
 from core.geometry.path import Path
 from core.geometry.piece import Side
 from core.tolerance import GOUGE
-from core.verify.judge import judge, judge_together
+from core.verify.judge import judge
 from tests.core.verify import oracle
 from tests.core.verify.shapes import lines, mirrored, moved, paths
 from tests.core.verify.test_sides import star
@@ -130,7 +130,7 @@ def test_loops_judged_together_are_judged_as_each_alone(seed: int) -> None:
     random = Random(seed)
     surface, side, radius = star(random), random.choice(list(Side)), random.choice((0.1, 0.3, 0.5))
     loops = _loops(random, surface)
-    together, alone = judge_together(surface, side, radius, loops), [judge(surface, side, radius, one) for one in loops]
+    together, alone = judge(surface, side, radius, loops), [judge(surface, side, radius, one) for one in loops]
     first = np.cumsum([0, *(len(loop) for loop in loops)]).tolist()
     depths = sorted(
         (gouge.path_piece + row, gouge.surface_number, gouge.depth)

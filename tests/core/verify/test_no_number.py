@@ -14,7 +14,7 @@ from core.geometry.piece import Arc, Side, Turn
 from core.geometry.piece_arrays import piece_arrays
 from core.verify.air_cuts import air_cuts
 from core.verify.gouge import gouging
-from core.verify.judge import judge, judge_prepared, judge_together
+from core.verify.judge import judge, judge_prepared
 from core.verify.pairs import NotMeasurableError, measurable, pairs_of, rounding_of
 from core.verify.surface import Surface
 from tests.core.verify.shapes import lines
@@ -122,5 +122,5 @@ def test_invalid_numbers_are_never_judged(bad: float, where: str) -> None:
             path = Path(arrays["points"], arrays["centers"], DEEP.turns, DEEP.numbers)
             assert not measurable(1.0, WALL, path)
             assert not judge(WALL, Side.LEFT, 1.0, path).judged
-            assert not judge_together(path, Side.LEFT, 1.0, [WALL, DEEP]).judged
+            assert not judge(path, Side.LEFT, 1.0, [WALL, DEEP]).judged
             assert not judge(path, Side.LEFT, 1.0, DEEP).clean

@@ -11,7 +11,7 @@ from core.geometry.path import EMPTY, Path
 from core.geometry.piece import Arc, Line, Piece, Side, Turn
 from core.units import Unit, sentence
 from core.verify.air_cuts import air_cuts
-from core.verify.judge import judge, judge_together
+from core.verify.judge import judge
 from core.verify.report import contact_findings, move_name, verdict_findings
 from tests.core.verify.shapes import around, lines, square
 from tests.core.verify.test_judge import CORNERS, MID_SIDE, MID_SIDE_PATH, OVER_RUN, OVER_RUN_PATH, R
@@ -113,7 +113,7 @@ def test_an_uncut_slot_without_a_path_is_one_finding() -> None:
         Arc((0, 10), (0, 0), (0, 5), turn),
     ]
     surface = Path.from_pieces(pieces, [1.0, 2.0, 3.0, 4.0])
-    verdict = judge_together(surface, Side.LEFT, 5.0005, [])
+    verdict = judge(surface, Side.LEFT, 5.0005, [])
     assert [finding.text for finding in verdict_findings(verdict, surface)] == [
         "UNCUT: nothing of segments 1-4 is cut. There is no path."
     ]
