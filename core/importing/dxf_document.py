@@ -195,6 +195,11 @@ class _Scanner:
     entity: ScannedEntity | None = None
     open_polyline: bool = False
 
+    @property
+    def entities(self) -> list[ScannedEntity]:
+        """The entities of the block, or of the section ENTITIES."""
+        return self.scan.entities if self.block is None else self.scan.blocks[self.block]
+
     def run(self, tags: Iterator[Tag]) -> None:
         marker = Tag(-1, "", 0)
         body: list[Tag] = []
@@ -213,13 +218,10 @@ class _Scanner:
         self.scan.open_section = self.section
         if self.section in ("ENTITIES", "BLOCKS"):
             self.scan.cut = marker.line - 1 if marker.line else 0
-            self._drop_last(marker)
-
-    def _drop_last(self, marker: Tag) -> None:
-        entities = self.scan.entities if self.block is None else self.scan.blocks.get(self.block, [])
-        if self.section == "ENTITIES" and entities and (self.open_polyline or entities[-1].line == marker.line):
-            self.scan.cut = entities[-1].line - 1
-            entities.pop()
+        last = self.entities[-1] if self.entities else None
+        if self.section == "ENTITIES" and last is not None and (self.open_polyline or last.line == marker.line):
+            self.scan.cut = last.line - 1
+            self.entities.pop()
 
     def open(self, tag: Tag) -> None:
         """Begin a section, a block or an entity at its marker."""
@@ -239,18 +241,14 @@ class _Scanner:
                 number = len(self.scan.entities) + 1
                 self.scan.lost.append(ScannedEntity(name, tag.line, number, fault="belongs to no POLYLINE"))
         elif self.section == "ENTITIES" or self.block is not None:
-            self._add(tag)
+            self.entity = ScannedEntity(name, tag.line, len(self.entities) + 1)
+            self.open_polyline = name == "POLYLINE"
+            self.entities.append(self.entity)
         elif self.section == "BLOCKS":
             # the beginning of its block is missing
             self.scan.blocks.setdefault("", []).append(
                 ScannedEntity(name, tag.line, 1, fault="stands outside of any block")
             )
-
-    def _add(self, tag: Tag) -> None:
-        entities = self.scan.entities if self.block is None else self.scan.blocks[self.block]
-        self.entity = ScannedEntity(tag.value, tag.line, len(entities) + 1)
-        self.open_polyline = tag.value == "POLYLINE"
-        entities.append(self.entity)
 
     def close(self, marker: Tag, body: list[Tag]) -> None:
         """Process a marker once all its tags are known."""

@@ -174,8 +174,11 @@ def _parts(pairs: Pairs, hits: Gouging, surface: Sided, radius: float) -> Interv
         intervals = merged(pairs.stations[pairs.i[met]], pairs.stations[pairs.i[met] + 1])
     # a wall exactly JOINED away counts as met
     spots, _, _ = approaches(pairs, met, np.full(len(met), np.nextafter(JOINED, 1.0)))
-    cuts = spots, _ends_passed(pairs, intervals, surface), _joints(pairs, surface)
-    parts = intervals.cut(np.concatenate(cuts))
+    joints = pairs.stations[1:-1]
+    if surface.endless:
+        # along a closed contour the side may change only at gaps of the path
+        joints = joints[np.abs(pairs.pieces.end[:-1] - pairs.pieces.start[1:]) > JOINED]
+    parts = intervals.cut(np.concatenate((spots, _ends_passed(pairs, intervals, surface), joints)))
     return parts if surface.endless else parts.cut(_between_arms(pairs, parts, surface))
 
 
@@ -187,12 +190,6 @@ def _meeting(pairs: Pairs, radius: float) -> Rows:
         held[pairs.i[keeping(pairs, radius)]] = True
         meets &= ~held[pairs.i]
     return meets.nonzero()[0]
-
-
-def _joints(pairs: Pairs, surface: Sided) -> Floats:
-    """Return the joints where the side may change: any for an open contour, only gaps of the path for a closed one."""
-    joints, moves = pairs.stations[1:-1], pairs.pieces
-    return joints[np.abs(moves.end[:-1] - moves.start[1:]) > JOINED] if surface.endless else joints
 
 
 def _ends_passed(pairs: Pairs, intervals: Intervals, surface: Sided) -> Floats:
