@@ -236,8 +236,7 @@ class CutcompApp(TransformActions):
         """Bring the screen at `depth` to the front; ask about the NC texts on top of it and close them."""
         over = self.screen_stack[depth + 1 :]
         documents = [proof.document for proof in self.proofs if proof in over]
-        if await self.may_close("LEAVE NC PROOF?", documents):
-            await self.close_documents(documents)
+        if await self.close_documents("LEAVE NC PROOF?", documents):
             self._uncover(depth)
 
     def action_command_palette(self) -> None:

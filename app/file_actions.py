@@ -245,12 +245,10 @@ class FileActions(DerivationActions):
     async def _show_opened(self, opened: Opened[Any]) -> None:
         """Show an opened document; a program first closes everything else, as only one can be open."""
         document = opened.document
-        if isinstance(document, ContourDocument):
-            if not await self.may_close("OPEN?", self._all_open()):
-                self.disk.do(lambda: self.service.close(document))
-                return
-            await self.close_documents(self._all_open())
-        self.show_opened(opened)
+        if isinstance(document, ContourDocument) and not await self.close_documents("OPEN?", self._all_open()):
+            self.disk.do(lambda: self.service.close(document))
+        else:
+            self.show_opened(opened)
 
     async def _open_already(
         self, trouble: Trouble, opened: Callable[[], Opened[Any] | Trouble | Path], *, again: bool
@@ -266,8 +264,7 @@ class FileActions(DerivationActions):
             else:
                 self._uncover(self.screen_stack.index(proof))
             self.say(trouble.text)
-        elif await self.may_close("OPEN AGAIN?", self._all_open()):
-            await self.close_documents(self._all_open())
+        elif await self.close_documents("OPEN AGAIN?", self._all_open()):
             result = self.disk.do(opened)
             self.show_opened(result if isinstance(result, Opened) else self.service.new())
             if isinstance(result, Trouble):
@@ -286,16 +283,28 @@ class FileActions(DerivationActions):
 
     async def _new(self, title: str, unit: Unit) -> bool:
         """Start a new program if everything open may be closed; return whether it was started."""
-        if not await self.may_close(title, self._all_open()):
+        if not await self.close_documents(title, self._all_open()):
             return False
-        await self.close_documents(self._all_open())
         self.show_opened(self.service.new(unit))
         return True
 
     def _all_open(self) -> list[Document]:
         return [self.document, *(proof.document for proof in self.proofs)]
 
-    async def may_close(self, title: str, documents: Iterable[Document]) -> bool:
+    async def close_documents(self, title: str, documents: Iterable[Document]) -> bool:
+        """Close documents, which removes their journals and locks, if they may be; return whether they were closed."""
+        closing = tuple(documents)
+
+        def close() -> None:
+            for document in closing:
+                self.service.close(document)
+
+        may_close = await self._may_close(title, closing)
+        if may_close:
+            self.disk.do(close)
+        return may_close
+
+    async def _may_close(self, title: str, documents: Iterable[Document]) -> bool:
         """Return whether documents may be closed: they are saved, or the operator saves or discards the changes."""
         openings = {document.file.opening for document in documents}
         proofs = [proof for proof in self.proofs if proof.document.file.opening in openings]
@@ -313,16 +322,6 @@ class FileActions(DerivationActions):
             if proof.document.unsaved and not await self.saved(proof, None):
                 return False
         return not ours or not self.document.unsaved or await self.saved(None, None)
-
-    async def close_documents(self, documents: Iterable[Document]) -> None:
-        """Close documents: remove their journals and locks."""
-        closing = tuple(documents)
-
-        def close() -> None:
-            for document in closing:
-                self.service.close(document)
-
-        self.disk.do(close)
 
     def show_nc(self, document: NcDocument, check_request: CheckRequest | None = None) -> None:
         """Open NC PROOF on a text; `check_request` holds the control, tools and unit of the command line."""
@@ -403,9 +402,8 @@ class FileActions(DerivationActions):
     @work(group="question", description="close")
     async def close_nc(self, document: NcDocument) -> None:
         """Close an NC text; ask about unsaved changes."""
-        if await self.may_close("LEAVE?", [document]) and self.proof is not None:
+        if await self.close_documents("LEAVE?", [document]) and self.proof is not None:
             document = self.proof.document
-            await self.close_documents([document])
             await self.run_action("app.back")
             if len(self.screen_stack) == 1 and self.document.is_new and document.file.path is not None:
                 # cutcomp was started on an NC text: go to its folder, not to a form that was never used
@@ -468,8 +466,7 @@ class FileActions(DerivationActions):
 
     @work(group="question")
     async def _leave(self) -> None:
-        if await self.may_close("QUIT?", self._all_open()):
-            await self.close_documents(self._all_open())
+        if await self.close_documents("QUIT?", self._all_open()):
             self.exit(0)
 
 

@@ -1,7 +1,7 @@
 """TerminalDriver connects Textual to the terminal; `teach` adds key sequences that Textual does not know.
 
-Textual's own driver fails at the first byte that is not UTF-8, and reads forever from a link that has dropped.  It has
-no public way to add a sequence, so `teach` writes into its table; a test types every sequence into a pseudo-terminal.
+Textual's own driver fails at the first byte that is not UTF-8, and reads forever from a link that has dropped.
+Textual has no public way to add a sequence, so `teach` writes into its table; a test types each into a pseudo-terminal.
 """
 
 from __future__ import annotations
