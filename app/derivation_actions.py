@@ -14,7 +14,7 @@ from textual.timer import Timer
 
 from app.screens.base import BaseScreen
 from app.screens.contour import ContourScreen
-from app.session.messages import TableNotesAdded, TableRowsJudged, Tone
+from app.session.messages import TableRowsJudged, Tone
 from app.session.session import Session
 from app.session.work import SECONDS_BEFORE_PROGRESS, Work, advised, derived, lookahead_table, while_wanted
 from core.pipeline.derived import DerivedBlock
@@ -186,11 +186,6 @@ class DerivationActions(App[int]):
         if not trial:
             self.displayed = self.session
 
-    @on(TableNotesAdded)
-    def _show_added_notes(self, message: TableNotesAdded) -> None:
-        if self.is_running:
-            self._show_table(message.block, message.table)
-
     def _calculation_stopped(self) -> None:
         """Note what Esc has stopped; an edit or CALCULATE starts it again."""
         block = self.session.derived_block
@@ -249,13 +244,12 @@ class DerivationActions(App[int]):
         if table is not None and not table.complete and self.displayed is self.session and self._deriving is None:
             self._advise_in_thread(block, self.session.program, table)
 
-    @work(thread=True, group="advice", exclusive=True, description="advice")
-    def _advise_in_thread(self, block: DerivedBlock, program: Program, table: Table) -> None:
-        check = while_wanted()
+    @work(group="advice", exclusive=True, description="advice")
+    async def _advise_in_thread(self, block: DerivedBlock, program: Program, table: Table) -> None:
+        notes = advised(block, program, table, while_wanted())
         with suppress(Stopped):
-            for noted in advised(block, program, table, check):
-                check(1.0)
-                self.post_message(TableNotesAdded(block, noted))
+            while (noted := await to_thread(next, notes, None)) is not None:
+                self._show_table(block, noted)
 
     def _uncover(self, depth: int) -> None:
         """Bring the screen at `depth` of the stack to the front; close those above it."""

@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, NamedTuple
 from textual.message import Message
 
 if TYPE_CHECKING:
-    from core.advice.lookahead_table import Row, Table
+    from core.advice.lookahead_table import Row
     from core.pipeline.derived import DerivedBlock
 
 
@@ -26,14 +26,6 @@ class Sentence(NamedTuple):
 
     text: str
     tone: Tone = Tone.PLAIN
-
-
-@dataclass
-class TableNotesAdded(Message):
-    """A worker has added notes to a block's look-ahead table."""
-
-    block: DerivedBlock
-    table: Table
 
 
 @dataclass

@@ -12,7 +12,7 @@ from textual.widgets import Label, ProgressBar, Static
 
 import app.derivation_actions as app_module
 import app.nc_proof.compare_controls as dialogs_module
-import app.nc_proof.screen as proof_module
+import app.nc_proof.runs as proof_module
 import app.screens.post as post_module
 from app.documents.document import NcDocument
 from app.documents.nc_text import NcText
