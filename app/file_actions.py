@@ -7,6 +7,7 @@ from __future__ import annotations
 
 import asyncio
 from collections.abc import Callable, Iterable
+from dataclasses import replace
 from functools import partial
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, TypeVar
@@ -472,13 +473,14 @@ class FileActions(DerivationActions):
 
 def session_of(document: ContourDocument, before: Session | None = None) -> Session:
     """Return the session on a document; reuse the results of `before` if the program is the same."""
-    session = Session.of_history(
-        document.history,
-        document.saved_program,
-        document.cursor,
-        document.field_name,
-        document.file.path,
-        document.title,
+    session = replace(
+        Session.of(document.program, document.title),
+        history=document.history,
+        saved=document.saved_program,
+        file=document.file.path,
         look_only=document.file.holder is not None,
     )
-    return session if before is None or before.program is not session.program else session.like(before)
+    if before is not None and before.program is session.program:
+        return replace(session, derived=before.derived, cursor=before.cursor, table=before.table)
+    untouched = document.field_name == SEGMENT_FIELD and not document.history.past
+    return session if untouched else session.at(document.cursor, document.field_name)

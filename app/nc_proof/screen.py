@@ -140,8 +140,7 @@ class ProofScreen(BaseScreen):
 
     def on_mount(self) -> None:
         """Show the text with the cursor where it was, and start the first run."""
-        self.show_text()
-        self.query_one(Listing).go_to_row(self.document.row)
+        self._show_text(self.document.row)
         super().on_mount()
         opened = self.notice
         self._run_request(self.request)
@@ -155,18 +154,16 @@ class ProofScreen(BaseScreen):
 
     # ---- the text
 
-    def show_text(self) -> None:
-        """Load the document's lines into the listing; the cursor keeps its row."""
+    def _show_text(self, row: int) -> None:
+        """Load the document's lines into the listing, with the cursor on a row."""
         listing = self.query_one(Listing)
-        row = listing.row
         listing.load_text("\n".join(self.document.text.texts))
         listing.go_to_row(row)
 
     def show_document(self, document: NcDocument) -> None:
         """Show a new version of the same file's document; control and tools stay."""
         self.document = document
-        self.show_text()
-        self.query_one(Listing).go_to_row(document.row)
+        self._show_text(document.row)
         self._run_request(replace(self.request, text=document.text))
 
     def take_lines(self) -> bool:
@@ -220,8 +217,7 @@ class ProofScreen(BaseScreen):
         changes = text.future if len(text.future) > len(self.document.text.future) else text.past
         row = changes[-1].row if changes else 0
         self._change(text, row)
-        self.show_text()
-        self.query_one(Listing).go_to_row(row)
+        self._show_text(row)
         self.say(done)
 
     def saved(self, document: NcDocument) -> None:
@@ -428,12 +424,12 @@ class ProofScreen(BaseScreen):
     def _show_findings(self, held: Finding | None) -> None:
         """List the findings; keep `held` highlighted if it is on the cursor's line or the list has the focus."""
         findings, marks = self.query_one("#proof-findings", OptionList), MARKS_OF_CHARACTERS[self.host.characters]
-        listed = () if self.result is None else self.result.findings
+        listed = self.result_findings
         findings.border_title = f"FINDINGS  {len(listed)}" if listed else "FINDINGS  none"
         at = listed.index(held) if held in listed else None
         findings.clear_options()
         findings.add_options([Option(self._line(finding, marks.gouge, marks.warning)) for finding in listed])
-        here = [index for index, finding in enumerate(listed) if finding.line == self.document.row + 1]
+        here = self._findings_of_row()
         stays = at in here or (at is not None and findings.has_focus)
         findings.highlighted = at if stays else self._gravest(here or range(len(listed)))
 
@@ -449,12 +445,13 @@ class ProofScreen(BaseScreen):
 
     def _show_finding_of_row(self) -> None:
         """Highlight the most severe finding of the line with the cursor."""
-        findings = self.query_one("#proof-findings", OptionList)
-        if self.result is None or findings.has_focus:
-            return
-        here = [at for at, finding in enumerate(self.result.findings) if finding.line == self.document.row + 1]
-        if here and findings.highlighted not in here:
+        findings, here = self.query_one("#proof-findings", OptionList), self._findings_of_row()
+        if here and findings.highlighted not in here and not findings.has_focus:
             findings.highlighted = self._gravest(here)
+
+    def _findings_of_row(self) -> list[int]:
+        """Return the indexes of the findings of the line with the cursor."""
+        return [at for at, finding in enumerate(self.result_findings) if finding.line == self.document.row + 1]
 
     @property
     def result_findings(self) -> tuple[Finding, ...]:

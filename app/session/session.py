@@ -53,28 +53,6 @@ class Session:
         cursor = Cursor(field=_first_field(program))
         return Session(History(program), program, solve_fields(program), cursor, title=title)
 
-    @staticmethod
-    def of_history(
-        history: History,
-        saved: Program,
-        place: FormPlace,
-        field: str,
-        file: Path | None,
-        title: str,
-        *,
-        look_only: bool,
-    ) -> Session:
-        """Return a session with a history and the cursor where it was; in a new program, on its first field."""
-        if field == SEGMENT_FIELD and not history.past:
-            field = _first_field(history.program)
-        cursor = Cursor(nearest_place(history.program, place), field)
-        derived = solve_fields(history.program)
-        return Session(history, saved, derived, cursor, file, title, look_only=look_only)
-
-    def like(self, before: Session) -> Session:
-        """Return the session with the results and the cursor of `before`, a session on the same program."""
-        return replace(self, derived=before.derived, cursor=before.cursor, table=before.table)
-
     @property
     def program(self) -> Program:
         """The current program."""
