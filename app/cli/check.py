@@ -35,7 +35,8 @@ MAX_NAMES: Final = 10
 def check(arguments: list[str]) -> int:
     """Run the command; return 0 for clean, 1 for errors found, 2 for input that cannot be used."""
     options = _parser().parse_args(arguments)
-    request = _request(options)
+    control = "all" if options.control.strip().lower() == "all" else control_of(options.control)
+    request = CheckRequest(control, tools_of(options), options.shop, unit_of(options))
     paths = list(_programs(options.files))
     if options.contour:
         return _contours(paths, request)
@@ -62,13 +63,6 @@ def _parser() -> argparse.ArgumentParser:
     )
     parser.add_argument("--json", action="store_true", help="machine-readable")
     return parser
-
-
-def _request(options: argparse.Namespace) -> CheckRequest:
-    every = options.control.strip().lower() == "all"
-    return CheckRequest(
-        "all" if every else control_of(options.control), tools_of(options), options.shop, unit_of(options)
-    )
 
 
 def _programs(files: list[Path]) -> Iterator[Path]:

@@ -648,9 +648,7 @@ class DocumentService:
             data = document.data()
             in_place = files.write_data(path, data)
         except (StoreError, ValueError) as error:
-            cause = error.__cause__ or error
-            reason = files.why(cause) if isinstance(cause, OSError | ValueError) else str(error)
-            return Trouble(f"{paths.short_path(path)} is not saved: {reason} {SAVE_ELSEWHERE}")
+            return Trouble(f"{paths.short_path(path)} is not saved: {_reason(error)} {SAVE_ELSEWHERE}")
         before = document.file
         agreed = (before.link_agreed and path == before.path) or (link_agreed and _leads_elsewhere(path))
         state = replace(before, path=path, stamp=files.stamp_of_data(data), link_agreed=agreed)
@@ -704,9 +702,7 @@ def put_theirs_aside(path: Path, most: int, today: str) -> Path:
         # written in one step: no half copy may pass for the other version
         files.write_data(aside, files.read_file(path, most)[0])
     except (OSError, StoreError) as error:
-        cause = error if isinstance(error, OSError) else error.__cause__
-        reason = files.why(cause) if isinstance(cause, OSError) else str(error)
-        raise StoreError(f"Nothing is saved: the other version cannot be copied, {reason}") from error
+        raise StoreError(f"Nothing is saved: the other version cannot be copied, {_reason(error)}") from error
     return aside
 
 
@@ -748,5 +744,7 @@ def _unread_note(document: Document) -> str:
     return ""
 
 
-def _reason(error: OSError | StoreError) -> str:
-    return files.why(error) if isinstance(error, OSError) else error.text
+def _reason(error: OSError | ValueError | StoreError) -> str:
+    """Return what the system refused, or what a StoreError says if the system did not cause it."""
+    cause = error.__cause__ if isinstance(error.__cause__, OSError) else error
+    return files.why(cause) if isinstance(cause, OSError | ValueError) else str(error)
