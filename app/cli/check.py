@@ -8,13 +8,14 @@ import re
 import sys
 from collections.abc import Iterator
 from dataclasses import dataclass, replace
+from functools import partial
 from pathlib import Path
 from shlex import quote
 from typing import Final
 
 from app.cli.control_options import add_options, bytes_of, control_of, tools_of, unit_of
 from app.cli.shell import STATUS_CLEAN, STATUS_FINDINGS, STATUS_UNUSABLE, Unusable, reported, say
-from app.documents.nc_library import FolderLibrary
+from app.documents.nc_library import called_program
 from app.documents.nc_text import NC_SUFFIXES
 from app.documents.paths import printable_path
 from core.controls.control_tools import commented_size
@@ -104,7 +105,7 @@ def _check_file(path: Path, request: CheckRequest) -> _Checked:
         text = bytes_of(path)
     except Unusable as error:
         return _Checked(path, unusable=str(error))
-    request = replace(request, library=FolderLibrary(path.parent))
+    request = replace(request, library=partial(called_program, path.parent))
     answers = checking.answer_all(text, request) if request.control == "all" else (checking.answer(text, request),)
     return _Checked(path, answers, text=text if any(result.missing for result in answers) else b"")
 

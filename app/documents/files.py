@@ -389,13 +389,9 @@ def why(error: OSError | ValueError) -> str:
     if not isinstance(error, OSError):
         return "that is not a file name. Choose another."
     if error.errno in (errno.EACCES, errno.EPERM):
-        what = "it" if _exists(error) else "its folder"
+        # if the file does not exist, its folder is what refuses to find or create it
+        exists = not isinstance(error.filename, str | Path) or os.path.lexists(error.filename)
+        what = "it" if exists else "its folder"
         return f"{what} is protected. Ask for permission, or choose another place."
     reason = None if error.errno is None else _REASONS.get(error.errno)
     return reason or f"{error.strerror or 'the system refuses'}. Try again or choose another place."
-
-
-def _exists(error: OSError | ValueError) -> bool:
-    """True if the error concerns an existing file; otherwise its folder is what refuses to find or create it."""
-    name = error.filename if isinstance(error, OSError) else None
-    return not isinstance(name, str | Path) or os.path.lexists(name)

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import re
 from contextlib import suppress
-from dataclasses import dataclass
 from pathlib import Path
 from typing import Final
 
@@ -22,24 +21,18 @@ MAX_SEARCHED_FILES: Final = 500
 _NUMBER: Final = re.compile(rb"^[ \t]*[O:][ \t]*([0-9]{1,8})(?![0-9.])", re.MULTILINE | re.IGNORECASE)
 
 
-@dataclass(frozen=True, slots=True)
-class FolderLibrary:
-    """The programs of a folder by number or label; None, for a text without a folder, finds none."""
+def called_program(folder: Path | None, program: int | str) -> tuple[str, bytes] | None:
+    """Return the name and text of a program in a folder, None if it has no readable file there, or no folder.
 
-    folder: Path | None
-
-    def __call__(self, program: int | str) -> tuple[str, bytes] | None:
-        """Return the name and text of a program, None if it has no readable file.
-
-        A str is the label by which LinuxCNC calls a subprogram.
-        """
-        if self.folder is None:
-            return None
-        with suppress(OSError, ValueError):
-            path = _labeled(self.folder, program) if isinstance(program, str) else _numbered(self.folder, program)
-            if path is not None:
-                return plain(path.name), read_file(path, MAX_NC_BYTES)[0]
+    A str is the label by which LinuxCNC calls a subprogram.
+    """
+    if folder is None:
         return None
+    with suppress(OSError, ValueError):
+        path = _labeled(folder, program) if isinstance(program, str) else _numbered(folder, program)
+        if path is not None:
+            return plain(path.name), read_file(path, MAX_NC_BYTES)[0]
+    return None
 
 
 def _labeled(folder: Path, label: str) -> Path | None:

@@ -5,10 +5,11 @@ from __future__ import annotations
 import re
 from contextlib import suppress
 from dataclasses import dataclass, replace
+from functools import partial
 from pathlib import Path
 from typing import TYPE_CHECKING, Final
 
-from app.documents.nc_library import FolderLibrary
+from app.documents.nc_library import called_program
 from app.documents.nc_text import NcText
 from core.progress import Progress, part, silent
 from core.units import Unit
@@ -77,7 +78,7 @@ def run(request: RunRequest, progress: Progress = silent) -> Result:
     from core.controls.registry import UnknownControl
     from core.pipeline.nc_proof import run_program
 
-    library = FolderLibrary(request.folder)
+    library = partial(called_program, request.folder)
     proof = run_program(request.text.data, request.control, request.tools, request.unit, library, progress)
     assert not isinstance(proof, UnknownControl), proof.text
     return _result(request, proof, judged=False)
@@ -128,12 +129,16 @@ def compare(request: RunRequest, progress: Progress = silent) -> tuple[Answer, .
 def _check_request(request: RunRequest, control: str) -> CheckRequest:
     from core.pipeline.checking import CheckRequest
 
-    library = FolderLibrary(request.folder)
-    check_request = CheckRequest(
-        control, request.tools, shop=False, unit=request.unit, library=library, names_options=False
+    return CheckRequest(
+        control,
+        request.tools,
+        shop=False,
+        unit=request.unit,
+        library=partial(called_program, request.folder),
+        names_options=False,
+        # the list of all controls has no room for the largest tool
+        fits=control != "all",
     )
-    # the list of all controls has no room for the largest tool
-    return replace(check_request, fits=control != "all")
 
 
 def tools_text(tools: ToolTable) -> str:

@@ -198,21 +198,18 @@ class ProofScreen(BaseScreen):
         self._run_request(replace(self.request, text=text))
 
     def take_over(self, action: str, /) -> bool:
-        """Undo or redo an edit of the NC text; return False for any other action."""
-        match action:
-            case "undo":
-                self._step(self.document.text.undo(), "Undone. Ctrl+Y brings it back.", "There is nothing to undo.")
-            case "redo":
-                self._step(self.document.text.redo(), "Done again.", "There is nothing to redo.")
-            case _:
-                return False
+        """Undo or redo an edit of the NC text."""
+        if action == "undo":
+            self._step(action, self.document.text.undo(), "Undone. Ctrl+Y brings it back.")
+        else:
+            self._step(action, self.document.text.redo(), "Done again.")
         return True
 
-    def _step(self, text: NcText, done: str, nothing: str) -> None:
+    def _step(self, action: str, text: NcText, done: str) -> None:
         if not self.take_lines():
             return
         if text is self.document.text:
-            self.say(nothing)
+            self.say(f"There is nothing to {action}.")
             return
         changes = text.future if len(text.future) > len(self.document.text.future) else text.past
         row = changes[-1].row if changes else 0

@@ -321,12 +321,10 @@ class BaseScreen(Screen[None]):
     def _mark_focus(self, event: DescendantFocus) -> None:
         """Mark the cursor's label and panel with classes: `:focus-within` would restyle and repaint far more."""
         row = event.widget.parent
-        label = next((each for each in row.children if each.has_class("label")), None) if row is not None else None
-        panel = next(
-            (each for each in event.widget.ancestors if isinstance(each, Widget) and "panel" in each.classes), None
-        )
-        self._mark("-at", label)
-        self._mark("-here", panel if isinstance(panel, Widget) else None)
+        labels = (each for each in row.children if each.has_class("label")) if row is not None else iter(())
+        panels = (each for each in event.widget.ancestors if isinstance(each, Widget) and each.has_class("panel"))
+        self._mark("-at", next(labels, None))
+        self._mark("-here", next(panels, None))
         self.refresh_frame()
 
     def _mark(self, name: str, widget: Widget | None) -> None:

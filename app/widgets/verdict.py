@@ -299,6 +299,6 @@ def first_step(block: DerivedBlock) -> str:
 
 def verdict_word(outcome: Outcome, marks: Marks) -> Content:
     """Return an outcome with its sign, in its color."""
-    sign = {Outcome.GOUGE: marks.gouge, Outcome.CLEAN: marks.good, Outcome.UNCUT: marks.warning}.get(outcome, "?")
-    sign = marks.warning if outcome is Outcome.WARNING else sign
-    return Content.styled(f"{sign} {outcome}", OUTCOME_ROLES[outcome])
+    signs = {Outcome.GOUGE: marks.gouge, Outcome.CLEAN: marks.good}
+    signs |= dict.fromkeys((Outcome.UNCUT, Outcome.WARNING), marks.warning)
+    return Content.styled(f"{signs.get(outcome, '?')} {outcome}", OUTCOME_ROLES[outcome])

@@ -12,7 +12,7 @@ from subprocess import PIPE, Popen
 import pytest
 
 from app.cli.check import check
-from app.documents.nc_library import FolderLibrary
+from app.documents.nc_library import called_program
 from core.controls.control_names import display_name
 from core.controls.control_tools import ToolTable
 from core.pipeline.checking import CheckRequest, answer_all
@@ -435,12 +435,12 @@ def test_a_program_is_found_by_the_number_it_begins_with(tmp_path: Path) -> None
     """A file on disk may be named like gauge_o1002.cnc."""
     (tmp_path / "other.nc").write_text("%\nO1003\nM99\n%")
     (tmp_path / "gauge_o1002.cnc").write_text("%\n(GAUGE)\nO1002 (PART)\nG1 X5. F100.\nM99\n%")
-    entry = FolderLibrary(tmp_path)(1002)
+    entry = called_program(tmp_path, 1002)
     assert entry is not None
     assert entry[0] == "gauge_o1002.cnc"
     assert b"X5." in entry[1]
-    assert FolderLibrary(tmp_path)(1004) is None
-    assert FolderLibrary(None)(1002) is None
+    assert called_program(tmp_path, 1004) is None
+    assert called_program(None, 1002) is None
 
 
 POCKET = "o<pocket> sub\n  G1 X#1 Y#2\n  o100 if [#1 GT 5]\n  X[#1+1]\n  o100 endif\no<pocket> endsub\nM2\n"
