@@ -173,14 +173,24 @@ def new_path(path: Path) -> Path:
 
 def journals_set_aside(path: Path) -> Iterator[Path]:
     """Yield the journals that were set aside from a place, newest first; the folder is read at the first one."""
-    prefix, new = f"{original_path(path).name}.", new_path(original_path(path)).name
+    prefix, new = f"{original_path(path).name}.", new_path(original_path(path))
+    yield from newest_first(each for each in entries(path.parent) if each.name.startswith(prefix) and each != new)
+
+
+def entries(folder: Path) -> list[Path]:
+    """Return what is in a folder; nothing if it cannot be read."""
+    with suppress(OSError):
+        return list(folder.iterdir())
+    return []
+
+
+def newest_first(paths: Iterable[Path]) -> list[Path]:
+    """Return those of the paths that exist, the one that has changed last first."""
     dated = list[tuple[int, Path]]()
-    with suppress(OSError), os.scandir(path.parent) as entries:
-        for entry in entries:
-            if entry.name.startswith(prefix) and entry.name != new:
-                with suppress(OSError):
-                    dated.append((entry.stat().st_mtime_ns, Path(entry.path)))
-    yield from (path for _, path in sorted(dated, reverse=True))
+    for path in paths:
+        with suppress(OSError):
+            dated.append((path.stat().st_mtime_ns, path))
+    return [path for _, path in sorted(dated, reverse=True)]
 
 
 def original_path(path: Path) -> Path:

@@ -19,8 +19,10 @@ from app.documents.journal import MAX_JOURNAL_BYTES, Journal, Kind, owner_in_ano
 from app.documents.journal_file import (
     JOURNAL_SUFFIX,
     JournalFile,
+    entries,
     journal_path,
     journals_set_aside,
+    newest_first,
     original_path,
     reason_set_aside,
 )
@@ -98,7 +100,8 @@ def unsaved_work_on(file: Path | None, kind: Kind, state: Path) -> Iterator[tupl
 
     Skip what was discarded, and what was set aside from a running process unless that wrote more and has died.
     """
-    for path in _unnamed(state) if file is None else journals_of(file, state):
+    unnamed = f"unnamed-*{JOURNAL_SUFFIX}"
+    for path in newest_first(state.glob(unnamed)) if file is None else journals_of(file, state):
         left = read(path, kind) or unreadable(path)
         if left is None:
             continue
@@ -126,7 +129,7 @@ def journals_of(file: Path, state: Path) -> Iterator[Path]:
     """Yield the journals of a file that are to be offered; those set aside come last."""
     candidates = [journal_path(file)]
     prefix = _name_prefix(os.path.realpath(file))
-    if any(path.name.startswith(prefix) for path in _entries(state)):
+    if any(path.name.startswith(prefix) for path in entries(state)):
         candidates.append(elsewhere(file, state))
     yield from (path for path in candidates if os.path.lexists(path))
     yield from (path for place in candidates for path in journals_set_aside(place) if _still_wants_answer(path))
@@ -154,7 +157,7 @@ def never_saved(folder: Path, state: Path) -> list[Path]:
         if path.name.endswith(JOURNAL_SUFFIX)
     ]
     unsaved = [path for path in adjacent if _holds_something(journal_path(path))]
-    named = ((path, path.name.removesuffix(JOURNAL_SUFFIX).rpartition("-")[0]) for path in _entries(state))
+    named = ((path, path.name.removesuffix(JOURNAL_SUFFIX).rpartition("-")[0]) for path in entries(state))
     unsaved += [
         folder / name for path, name in named if elsewhere(folder / name, state) == path and _holds_something(path)
     ]
@@ -166,24 +169,6 @@ def _holds_something(path: Path) -> bool:
         return path.stat().st_size > 0
     except OSError:
         return False
-
-
-def _entries(folder: Path) -> list[Path]:
-    with suppress(OSError):
-        return list(folder.iterdir())
-    return []
-
-
-def _unnamed(state: Path) -> list[Path]:
-    journals = state.glob(f"unnamed-*{JOURNAL_SUFFIX}")
-    return sorted(journals, key=lambda path: (_changed(path), path.name), reverse=True)
-
-
-def _changed(path: Path) -> float:
-    try:
-        return path.stat().st_mtime
-    except OSError:
-        return 0.0
 
 
 def read(path: Path, kind: Kind | None = None) -> Journal | None:
