@@ -260,10 +260,7 @@ class FileActions(DerivationActions):
         again = again or self.disk.do(lambda: self.service.changed(document))
         if not again or document.kind is not self.document.kind:
             proof = next((proof for proof in self.proofs if proof.document.file.opening is document.file.opening), None)
-            if proof is None:
-                self._uncover(0)
-            else:
-                self._uncover(self.screen_stack.index(proof))
+            self._uncover(0 if proof is None else self.screen_stack.index(proof))
             self.say(trouble.text)
         elif await self.close_documents("OPEN AGAIN?", self._all_open()):
             result = self.disk.do(opened)

@@ -13,7 +13,7 @@ from typing import Final
 
 from app.session.session import Session
 from core.program.fields import Form, field_of, form_of
-from core.program.model import CutterComp, LineSegment, Number
+from core.program.model import Block, LineSegment, Number
 
 EXAMPLE_CORNERS: Final = (("0", "0"), ("0", "1"), ("2", "1"), ("2", "0"), ("1", "0"))
 """The end points of the five lines."""
@@ -64,16 +64,15 @@ def next_step(session: Session) -> Step | None:
     for step in STEPS:
         if step.segment > len(block.segments):
             return step
-        held = block if step.segment == 0 else block.segments[step.segment - 1]
-        if not _meets(getattr(held, step.name, None), step.text):
+        held = _held(block, step)
+        if held != step.text and not (isinstance(held, Number) and held.value == float(step.text)):
             return step
     return None
 
 
-def _meets(held: object, text: str) -> bool:
-    if isinstance(held, CutterComp):
-        return held == text
-    return isinstance(held, Number) and held.value == float(text)
+def _held(block: Block, step: Step) -> object:
+    """Return what the block holds in the field of a step; None if the field is blank or the segment has none."""
+    return getattr(block.segments[step.segment - 1] if step.segment else block, step.name, None)
 
 
 def on_program(session: Session) -> str:
@@ -113,8 +112,7 @@ def _label(step: Step) -> str:
 
 def _mismatch(session: Session, step: Step) -> str:
     """Return a note that a field's number differs from the plate's; empty if no number is typed there yet."""
-    block = session.program.blocks[0]
-    held = getattr(block.segments[step.segment - 1] if step.segment else block, step.name, None)
+    held = _held(session.program.blocks[0], step)
     return f"{_label(step)} is {held.value:g}, and the plate has {step.text}. " if isinstance(held, Number) else ""
 
 
