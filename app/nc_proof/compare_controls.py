@@ -16,8 +16,8 @@ from textual.widgets.option_list import Option
 from app.nc_proof.runs import RunRequest, compare
 from app.screens.dialogs import Dialog
 from app.session.work import SECONDS_BEFORE_PROGRESS, Work
-from app.widgets.option_rows import OptionRows
 from app.widgets.plain import PlainText
+from app.widgets.rows import OptionRows
 from core.progress import Stopped
 
 RUNNING: Final = "Every control is running the program ..."

@@ -29,8 +29,8 @@ from app.session.formats import counted
 from app.session.messages import Sentence, Tone
 from app.session.work import while_wanted
 from app.widgets.drawing import Drawing
-from app.widgets.option_rows import OptionRows, control_rows
 from app.widgets.plain import PlainLabel, PlainText
+from app.widgets.rows import OptionRows, control_rows
 from app.widgets.softkeys import Softkey
 from app.widgets.status import Status
 from app.widgets.verdict import MARKS_OF_CHARACTERS

@@ -12,8 +12,8 @@ from textual.containers import Horizontal
 from textual.widgets import Input, OptionList, Static
 
 from app.screens.dialogs import LINES_UP_AND_DOWN, Dialog
-from app.widgets.option_rows import OptionRows
 from app.widgets.plain import PlainLabel, PlainText
+from app.widgets.rows import OptionRows
 from core.program.calculator import Case, Quantity, Refusal, calculate, field_text, outputs_for
 from core.program.fields import Field
 from core.units import Unit

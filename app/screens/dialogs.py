@@ -19,8 +19,8 @@ from textual.widgets.option_list import Option
 
 from app.documents.questions import GO_BACK, Answer
 from app.widgets.field import LineInput
-from app.widgets.option_rows import NamedRows, OptionRows
 from app.widgets.plain import PlainLabel, PlainText
+from app.widgets.rows import NamedRows, OptionRows
 from core.units import Kind, Unit, Unreadable, parse
 
 TALL = 16

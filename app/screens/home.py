@@ -32,9 +32,8 @@ from app.session.formats import counted, length
 from app.session.messages import Sentence, Tone
 from app.widgets.block_summary import BlockSummary
 from app.widgets.drawing import Drawable, Drawing
-from app.widgets.option_rows import TypedLetters
 from app.widgets.plain import PlainText
-from app.widgets.row_table import RowTable
+from app.widgets.rows import RowTable, TypedLetters
 from app.widgets.softkeys import Softkey
 from app.widgets.verdict import MARKS_OF_CHARACTERS, verdict_word
 from core.pipeline.derived import Derived

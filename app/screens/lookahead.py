@@ -18,7 +18,7 @@ from app.session.messages import Sentence
 from app.session.session import Session
 from app.widgets.drawing import Drawing
 from app.widgets.plain import PlainText
-from app.widgets.row_table import RowTable
+from app.widgets.rows import RowTable
 from app.widgets.softkeys import Softkey, Softkeys
 from app.widgets.verdict import MARKS_OF_CHARACTERS, Marks
 from core.program.edit import FormPlace, recalculate_lookahead, type_field

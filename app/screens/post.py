@@ -21,8 +21,8 @@ from app.session.guide import GUIDE_COMPLETED, POST_NAME
 from app.session.messages import Sentence, Tone
 from app.session.posting import CENTER_PATH, OVERRIDE_PHRASES, PostedText, choices, nc_text, objections
 from app.session.session import Session
-from app.widgets.option_rows import NamedRows, control_rows
 from app.widgets.plain import PlainLabel, PlainText
+from app.widgets.rows import NamedRows, control_rows
 from app.widgets.softkeys import Softkey
 from app.widgets.status import SPACED_UNITS
 from app.widgets.verdict import MARKS_OF_CHARACTERS

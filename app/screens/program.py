@@ -23,7 +23,7 @@ from app.widgets.block_summary import BlockSummary
 from app.widgets.drawing import Drawing
 from app.widgets.findings_list import FindingsList
 from app.widgets.plain import PlainLabel
-from app.widgets.row_table import RowTable
+from app.widgets.rows import RowTable
 from app.widgets.softkeys import Softkey
 from app.widgets.verdict import MARKS_OF_CHARACTERS, Marks, verdict_word
 from core.pipeline.derived import Derived, DerivedBlock

@@ -10,7 +10,7 @@ from textual.content import Content
 from textual.coordinate import Coordinate
 
 from app.session.formats import length
-from app.widgets.row_table import RowTable
+from app.widgets.rows import RowTable
 from core.importing.contours import Contour, ContourKind
 from core.importing.listing import Row, cells_of
 from core.units import Unit

@@ -12,7 +12,7 @@ from textual.reactive import reactive
 from textual.widgets.option_list import Option
 
 from app.session.block_findings import Entry, EntryKind
-from app.widgets.option_rows import OptionRows
+from app.widgets.rows import OptionRows
 from app.widgets.verdict import MARKS_OF_CHARACTERS, Marks
 
 ROLES = {

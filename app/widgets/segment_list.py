@@ -11,7 +11,7 @@ from textual.reactive import reactive
 from app.session.formats import length
 from app.session.posting import deleted_numbers
 from app.session.session import Session
-from app.widgets.row_table import RowTable
+from app.widgets.rows import RowTable
 from app.widgets.verdict import MARKS_OF_CHARACTERS
 from core.pipeline.derived import DerivedBlock
 from core.program.fields import form_of

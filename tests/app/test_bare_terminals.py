@@ -14,7 +14,7 @@ from app.documents.lock import take
 from app.documents.programs import example
 from app.terminal.capabilities import ascii_only, characters, monochrome
 from app.widgets.field import LineInput
-from app.widgets.option_rows import OptionRows
+from app.widgets.rows import OptionRows
 from tests.app.documents.typist import ELSEWHERE
 from tests.app.widget_pilot import SURROUNDINGS, Operator, operator, session_on
 from tests.terminal import cutcomp, running

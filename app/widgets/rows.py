@@ -1,22 +1,23 @@
-"""OptionRows is Textual's option list, adapted to terminals of every size and with any colors."""
+"""OptionRows and RowTable are Textual's list and table, adapted to terminals of every size and with any colors."""
 
 from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, Final
+from typing import TYPE_CHECKING, Final, TypeVar
 
 from rich.segment import Segment
 from rich.style import Style
 from textual import events
 from textual.content import Content
 from textual.strip import Strip
-from textual.widgets import OptionList
+from textual.widgets import DataTable, OptionList
 from textual.widgets.option_list import Option
 
 if TYPE_CHECKING:
     from core.controls.control_names import ControlChoice
 
+Cell = TypeVar("Cell")
 REVERSED = Style(reverse=True, underline=False)
 LETTERS_TOGETHER: Final = 1.0
 """Longest pause in seconds between two letters of one name."""
@@ -119,3 +120,30 @@ def control_rows(choices: Sequence[ControlChoice]) -> list[Option]:
         Option(Content.assemble(f"{choice.name:<{width}}", (choice.about, "$c-label")), id=choice.control)
         for choice in choices
     ]
+
+
+class RowTable(DataTable[Cell]):
+    """A table with the cursor on a whole row and columns of these headings and widths; the heading is the column's key.
+
+    Home and End go to the first and the last row, where Textual's scrolls sideways.
+    """
+
+    def __init__(
+        self,
+        columns: Sequence[tuple[str, int]] = (),
+        *,
+        id: str | None = None,
+        classes: str | None = None,
+        cell_padding: int = 1,
+    ) -> None:
+        super().__init__(id=id, classes=classes, cursor_type="row", cell_padding=cell_padding)
+        for heading, width in columns:
+            self.add_column(heading, width=width, key=heading)
+
+    def action_scroll_home(self) -> None:
+        """Go to the first row."""
+        self.action_scroll_top()
+
+    def action_scroll_end(self) -> None:
+        """Go to the last row."""
+        self.action_scroll_bottom()
