@@ -45,7 +45,7 @@ def check(arguments: list[str]) -> int:
     answers = (_check_file(path, request) for path in paths)
     if options.json:
         return _as_json(answers)
-    return _as_text(answers, request) if single else _as_summary(answers)
+    return _as_text(next(answers), request) if single else _as_summary(answers)
 
 
 def _parser() -> argparse.ArgumentParser:
@@ -141,16 +141,14 @@ def _as_json(answers: Iterator[_Checked]) -> int:
     return status
 
 
-def _as_text(answers: Iterator[_Checked], request: CheckRequest) -> int:
+def _as_text(checked: _Checked, request: CheckRequest) -> int:
     """Print everything about one program, or the table of all controls."""
-    status = STATUS_CLEAN
-    for checked in answers:
-        status = max(status, _status_of(checked))
-        if request.control == "all" and checked.answers:
-            _print_table(checked.answers)
-        elif checked.answers:
-            print(*checking.lines(checked.answers[0]), sep="\n")
-        _print_missing(checked.answers, lines_of(checked.text))
+    status = _status_of(checked)
+    if request.control == "all" and checked.answers:
+        _print_table(checked.answers)
+    elif checked.answers:
+        print(*checking.lines(checked.answers[0]), sep="\n")
+    _print_missing(checked.answers, lines_of(checked.text))
     return status
 
 

@@ -5,14 +5,8 @@ from __future__ import annotations
 import argparse
 from dataclasses import replace
 
-from core.importing.contours import (
-    FIT_TOLERANCE,
-    JOIN_TOLERANCE,
-    MAX_TOLERANCE,
-    ContourList,
-    ImportOptions,
-    contours_of,
-)
+from core.importing import contours
+from core.importing.contours import ContourList, ImportOptions
 from core.importing.drawing import Drawing, DrawingError, DrawingUnit, Progress
 from core.importing.dxf import read_dxf
 from core.importing.listing import unit_question
@@ -29,19 +23,19 @@ def list_drawing(data: bytes, options: argparse.Namespace, *, progress: Progress
     if asked and drawing.unit and asked is not drawing.unit:
         note = f"The file says {drawing.unit}: it is read as {asked}, as --units says."
         drawing = replace(drawing, notes=(*drawing.notes, note))
-    return contours_of(drawing, _import_options(options, drawing, unit), progress)
+    return contours.contours_of(drawing, _import_options(options, drawing, unit), progress)
 
 
 def _import_options(options: argparse.Namespace, drawing: Drawing, unit: DrawingUnit) -> ImportOptions:
     """Return the checked options of the import; raise DrawingError OPTION if one does not fit the drawing."""
     program = unit.program_unit
-    most = from_mm(MAX_TOLERANCE[program], program)
+    most = from_mm(contours.MAX_TOLERANCE[program], program)
     for name, value in (("--tolerance", options.tolerance), ("--fit", options.fit)):
         if value is not None and not 0.0 <= value <= most:
             raise DrawingError("OPTION", f"{name} {value:g}: it must be from 0 to {most:g} {program}.")
     for layer in options.layer:
         if layer not in drawing.layers:
             raise DrawingError("OPTION", f"--layer {layer}: the drawing has {', '.join(drawing.layers) or 'none'}.")
-    tolerance = JOIN_TOLERANCE[program] if options.tolerance is None else to_mm(options.tolerance, program)
-    fit = to_mm(options.fit, program) if options.fit else FIT_TOLERANCE[program]
+    tolerance = contours.JOIN_TOLERANCE[program] if options.tolerance is None else to_mm(options.tolerance, program)
+    fit = to_mm(options.fit, program) if options.fit else contours.FIT_TOLERANCE[program]
     return ImportOptions(unit, tolerance, fit, frozenset(options.layer) or None)
