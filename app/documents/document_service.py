@@ -56,7 +56,6 @@ class Offer:
     ask: QuestionText
     path: Path | None = None
     left: Journal | UnreadableWork | None = None
-    answered: frozenset[Path] = frozenset()
 
 
 @dataclass(frozen=True, slots=True)
@@ -85,7 +84,8 @@ class _OpenDocument:
 
     `rewrite`: the journal must be rewritten from the current work.  `failing`: the last edit is not on disk.  `warned`:
     the operator knows that somebody has taken the document over.  `away`: the operator knows that the journal is not
-    beside its file.  `copy` is the name that questions propose for a copy.
+    beside its file.  `copy` is the name that questions propose for a copy, `answered` the unsaved work that they were
+    about.
     """
 
     latest: Document
@@ -98,6 +98,7 @@ class _OpenDocument:
     warned: bool = False
     away: bool = False
     copy: Path | None = None
+    answered: set[Path] = field(default_factory=set)
 
     def remember(self, document: AnyDocument) -> AnyDocument:
         self.latest = document
@@ -361,21 +362,17 @@ class DocumentService:
             case questions.RESTORE, Path() as path, Journal() as journal:
                 return self._restore(entry, document, path, journal)
             case questions.DISCARD, Path() as path, left if left is not None:
-                return self._put_away(document, path, left, offer.answered, "as a backup in")
+                return self._put_away(document, path, left, "as a backup in")
             case questions.NOT_MINE, Path() as path, Journal() as journal if unsaved_work.wants_answer(path):
-                whose = f"for {printable(journal.head.owner.user)}:"
-                return self._put_away(document, path, journal, offer.answered, whose)
+                return self._put_away(document, path, journal, f"for {printable(journal.head.owner.user)}:")
             case _, Path() as path, left if left is not None and word != GO_BACK:
-                return self._next_offer(document, answered=offer.answered | {path})
+                entry.answered.add(path)
+                return self._next_offer(document)
             case _:
                 return Opened(document)
 
     def _next_offer(
-        self,
-        document: AnyDocument,
-        kept_copy: Path | None = None,
-        answered: frozenset[Path] = frozenset(),
-        notice: Notice | None = None,
+        self, document: AnyDocument, kept_copy: Path | None = None, notice: Notice | None = None
     ) -> Opened[AnyDocument]:
         """Return the document with the next question about unsaved work; remove journals that hold nothing new.
 
@@ -383,13 +380,13 @@ class DocumentService:
         """
         for_others: list[str] = []
         for path, left in self._unsaved_work(document, kept_copy):
-            if path in answered:
+            if path in self._entry(document).answered:
                 continue
             ask = self._question(document, path, left, chosen=path == kept_copy)
             if isinstance(ask, str):
                 for_others.append(ask)
             elif ask is not None:
-                return Opened(document, notice, Offer(ask, path, left, answered))
+                return Opened(document, notice, Offer(ask, path, left))
         return Opened(document, notice or (Notice(" ".join(for_others), warning=True) if for_others else None))
 
     def _unsaved_work(
@@ -503,7 +500,7 @@ class DocumentService:
             return path
 
     def _put_away(
-        self, document: AnyDocument, path: Path, left: Journal | UnreadableWork, answered: frozenset[Path], whose: str
+        self, document: AnyDocument, path: Path, left: Journal | UnreadableWork, whose: str
     ) -> Opened[AnyDocument]:
         """Return the document without the work, which is kept `whose`: as a backup, or for its author."""
         aside = path
@@ -517,7 +514,8 @@ class DocumentService:
             notice = Notice("It was saved or discarded meanwhile. Ctrl+O opens the file as it is now.", warning=True)
         except OSError as error:
             notice = Notice(f"The unsaved work cannot be renamed: {files.why(error)}", warning=True)
-        return self._next_offer(document, answered=answered | {path, aside}, notice=notice)
+        self._entry(document).answered.update((path, aside))
+        return self._next_offer(document, notice=notice)
 
     # ---- write the journal
 
