@@ -11,7 +11,7 @@ import sys
 from pathlib import Path
 
 from app.cli import lifeline
-from app.cli.shell import COMMAND_HELP, NOTHING_ASKED, SHOP_HELP, STATUS_UNUSABLE, TerminalOptions, prepare, say
+from app.cli.shell import COMMAND_HELP, NOTHING_ASKED, STATUS_UNUSABLE, TerminalOptions, prepare, say
 from app.documents.paths import is_drawing
 
 DESCRIPTION = """\
@@ -40,10 +40,6 @@ def main(arguments: list[str] | None = None) -> int:
         from app.cli.import_contours import import_contours
 
         return import_contours(given[1:])
-    if word in SHOP_HELP:
-        from app.cli.shop import shop
-
-        return shop(given)
     if word in COMMAND_HELP:
         from app.cli.commands import command
 
@@ -61,7 +57,7 @@ def _parsed(given: list[str]) -> int:
         "cutcomp",
         description=DESCRIPTION,
         epilog="commands without a screen:\n"
-        + "".join(f"  cutcomp {name:<10} {text}\n" for name, text in (COMMAND_HELP | SHOP_HELP).items())
+        + "".join(f"  cutcomp {name:<10} {text}\n" for name, text in COMMAND_HELP.items())
         + "  cutcomp check      what controls do with an NC program\n"
         + "  cutcomp import     contours of a DXF drawing as a program\n\nanother screen:\n"
         + "  cutcomp proof      an NC program, the path a control makes of it, its findings\n\n"

@@ -23,8 +23,6 @@ COMMAND_HELP: Final = {
     "lookahead": "what becomes of the path at every look-ahead value",
     "post": "write the NC file",
     "plot": "draw the program as SVG or DXF",
-}
-SHOP_HELP: Final = {
     "sheet": "the setup sheet, as text or as a page with the drawing",
     "tools": "list the tool table, or import a LinuxCNC tool table",
     "serve": "the screens in a browser on this machine",
