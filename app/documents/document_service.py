@@ -273,8 +273,6 @@ class DocumentService:
             if path.parent == examples():
                 return self.example(path.stem)
             document = within(FILE_SECONDS, lambda: self._read(path, kept_copy))
-        except TimeoutError as error:
-            return Trouble(f"{paths.short_path(path)} cannot be opened: {error}.")
         except OSError as error:
             return Trouble(f"{paths.short_path(path)} cannot be opened: {files.why(error)}")
         except StoreError as error:

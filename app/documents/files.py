@@ -388,6 +388,9 @@ def why(error: OSError | ValueError) -> str:
         return "it is too large. Choose another file."
     if not isinstance(error, OSError):
         return "that is not a file name. Choose another."
+    if isinstance(error, TimeoutError) and error.errno is None:
+        # the program's own limit, see `time_limits.within`
+        return f"{error}."
     if error.errno in (errno.EACCES, errno.EPERM):
         # if the file does not exist, its folder is what refuses to find or create it
         exists = not isinstance(error.filename, str | Path) or os.path.lexists(error.filename)

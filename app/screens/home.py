@@ -101,8 +101,7 @@ class HomeScreen(BaseScreen):
         try:
             self.listed, self.trouble = openable_files(folder), ""
         except OSError as error:
-            reason = f"{error}." if isinstance(error, TimeoutError) else why(error)
-            self.trouble = f"{short_path(folder)} cannot be shown: {reason}"
+            self.trouble = f"{short_path(folder)} cannot be shown: {why(error)}"
             self.listed = tuple(example_programs())
         self.folder = folder
         self.query_one("#folder", Static).update(
