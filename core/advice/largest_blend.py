@@ -7,7 +7,7 @@ from dataclasses import replace
 from typing import Final
 
 from core.advice.block_paths import BlockPaths
-from core.comp.blend_moves import blend_in, blend_out
+from core.comp.compensate import blend_in, blend_out
 from core.comp.compensated import CenterPath
 from core.finding import Finding
 from core.geometry.path import Path

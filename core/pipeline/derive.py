@@ -1,15 +1,9 @@
-"""Derives all of a program: fields, surface, paths, verdict, findings; the look-ahead table and remedies.
-
-Block cuts are where the path of one block cuts into the contour of another one, such as an island in a pocket.
-"""
+"""Derives all of a program: fields, surface, paths, verdict, findings; the look-ahead table and remedies."""
 
 from __future__ import annotations
 
-from collections import defaultdict
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Callable
 from dataclasses import replace
-
-import numpy as np
 
 from core.advice.block_paths import BlockPaths, RoughPass
 from core.advice.largest_blend import with_largest_blend
@@ -17,7 +11,6 @@ from core.advice.lookahead_table import CuttingSetup, Row, Table, judge_lookahea
 from core.advice.path_findings import (
     better_path_findings,
     by_severity,
-    move_names,
     open_finding,
     path_findings,
     size_warning,
@@ -30,21 +23,19 @@ from core.comp.best_path.best_path import BestPath, best_path
 from core.comp.best_path.separation import separation
 from core.comp.compensate import blend_in, blend_out
 from core.comp.compensated import CenterPath, Compensated
-from core.controls.judging.repeated_passes import path_key
 from core.finding import Finding, Severity
-from core.geometry.path import Floats, Path
+from core.geometry.path import Path
 from core.geometry.piece import Side
 from core.output.grid import Grid
 from core.output.objections import OVERRIDABLE_CODES, job_errors
-from core.output.passes import Job, heights, z_steps
+from core.output.passes import z_steps
+from core.pipeline.block_cuts import with_block_cuts
 from core.pipeline.derived import Derived, DerivedBlock, solve_block_fields
 from core.pipeline.jobs import MAX_SIDE_PASSES, job, parameter, stocks
 from core.program.model import PathChoice, Program
 from core.progress import Progress, part, silent
 from core.units import Kind, decimals_shown, from_mm, to_mm
 from core.verify.judge import judge
-from core.verify.other_contours import ContourCut, Sweep, Wall, cuts_into_other_contours
-from core.verify.report import Names
 from core.verify.verdict import Verdict
 
 SOLVED_SHARE = 0.4
@@ -239,75 +230,3 @@ def remedy_for_gouge(block: DerivedBlock, program: Program) -> Finding | None:
         return None
     text = f"Block {block.number}: the tool is too big; {fits.sentence()}"
     return Finding("TOOL_FITS", Severity.INFO, text, field="tool", value=fits.diameter, lengths=fits.lengths)
-
-
-def with_block_cuts(
-    blocks: Sequence[DerivedBlock], program: Program, progress: Progress = silent
-) -> tuple[DerivedBlock, ...]:
-    """Add to each block every other block's contour that its path cuts into, with a warning.
-
-    Only blocks that can be posted are compared.
-    """
-    ready = [(block, block.paths, job(block, program)) for block in blocks if block.postable and block.paths]
-    walls = [wall for block, paths, work in ready for wall in _walls(block, paths, work)] if len(ready) > 1 else []
-    if not walls:
-        return tuple(blocks)
-    sweeps = {sweep: rows for block, paths, work in ready for sweep, rows in _sweeps(block, paths, work)}
-    cuts = defaultdict[int, list[ContourCut]](list)
-    for cut in _without_pairs(cuts_into_other_contours(walls, list(sweeps), progress)):
-        cuts[cut.sweep.number].append(cut)
-    return tuple(
-        replace(
-            block,
-            findings=by_severity((*block.findings, *(_finding(cut, *sweeps[cut.sweep]) for cut in own))),
-            cut_contours=tuple(cut.wall.path for cut in own),
-        )
-        if (own := cuts.get(block.number))
-        else block
-        for block in blocks
-    )
-
-
-def _walls(block: DerivedBlock, paths: BlockPaths, work: Job) -> Iterator[Wall]:
-    """Yield the contour of a block; with CUTTER COMP. ON it is no wall."""
-    if block.side is None:
-        return
-    # a cut that does not come down to the floor may be a step or a groove
-    top = max((height for floor in work.floors for height in (floor.z_start, floor.z_end)), default=work.z_bottom)
-    yield Wall(paths.surface, block.side, top, path_key(paths.surface), number=block.number)
-
-
-def _sweeps(block: DerivedBlock, paths: BlockPaths, work: Job) -> Iterator[tuple[Sweep, tuple[Names, Floats]]]:
-    """Yield each loop of a block's paths at its deepest, numbered by rows, and what these rows are."""
-    assert work.cutter is not None
-    stages = [(work.finisher or work.cutter, paths)]
-    stages += [(work.cutter, replace(paths, loops=rough.loops)) for rough in paths.rough]
-    shapes = frozenset([path_key(paths.surface)])
-    for cutter, stage in stages:
-        if not stage.loops:
-            continue
-        first, names, numbers = 0, move_names(stage), np.concatenate([loop.whole.numbers for loop in stage.loops])
-        for loop in stage.loops:
-            rows = np.arange(first, first + len(loop.whole), dtype=np.float64)
-            path = replace(loop.whole, numbers=rows)
-            yield Sweep(path, heights(work, loop), cutter.diameter / 2, shapes, number=block.number), (names, numbers)
-            first += len(rows)
-
-
-def _without_pairs(cuts: Sequence[ContourCut]) -> Iterator[ContourCut]:
-    """Yield the cuts; where two paths run through each other's contours, only that of the later block."""
-    through = {(cut.sweep.number, cut.wall.number) for cut in cuts if cut.through}
-    for cut in cuts:
-        path, wall = cut.sweep.number, cut.wall.number
-        if path > wall or not {(path, wall), (wall, path)} <= through:
-            yield cut
-
-
-def _finding(cut: ContourCut, names: Names, numbers: Floats) -> Finding:
-    """Return the warning; `names` and `numbers` are those of the rows of the cutting path."""
-    gouge, row = cut.gouge, int(cut.gouge.path_number)
-    name, segment = names(row, 0.0), numbers[row].item()
-    does = "runs through" if cut.through else "cuts {value} into"
-    text = f"{name[0].upper()}{name[1:]} {does} the contour of block {cut.wall.number} at X {{x}} Y {{y}}. "
-    text += "Check that this wall may be cut."
-    return Finding("OTHER_BLOCK", Severity.WARNING, text, segment, at=gouge.surface_at, value=gouge.depth)
