@@ -52,20 +52,23 @@ def import_contours(arguments: list[str]) -> int:
 def _refuse_unused(options: argparse.Namespace) -> None:
     """Raise Unusable for an option that would do nothing here."""
     if options.control is None:
-        nc_only = [name for name in ("side", "diameter", "tools", "tool") if _given(getattr(options, name))]
-        if nc_only:
-            raise Unusable(f"--{nc_only[0]} goes with an NC program only: add --control NAME.")
+        if name := _first_given(options, "side", "diameter", "tools", "tool"):
+            raise Unusable(f"--{name} goes with an NC program only: add --control NAME.")
         if options.fit == 0.0:
             raise Unusable("--fit 0: type a length above 0, or leave --fit out.")
-    else:
-        names = ("fit", "tolerance", "start", "layer", "reverse", "damaged")
-        drawing_only = [name for name in names if _given(getattr(options, name))]
-        if drawing_only:
-            raise Unusable(f"--{drawing_only[0]} goes with a drawing only: leave out --control.")
-    if options.list:
-        taking = [name for name in ("chain", "start", "reverse", "output") if _given(getattr(options, name))]
-        if taking:
-            raise Unusable(f"--{taking[0]} takes contours and --list takes none: leave one of them out.")
+    elif name := _first_given(options, "fit", "tolerance", "start", "layer", "reverse", "damaged"):
+        raise Unusable(f"--{name} goes with a drawing only: leave out --control.")
+    if options.list and (name := _first_given(options, "chain", "start", "reverse", "output")):
+        raise Unusable(f"--{name} takes contours and --list takes none: leave one of them out.")
+
+
+def _first_given(options: argparse.Namespace, *names: str) -> str:
+    """Return the first of these options that was typed, empty for none; 0 is a value."""
+    for name in names:
+        value = getattr(options, name)
+        if value is not None and value is not False and value != []:
+            return name
+    return ""
 
 
 def _remedy(error: DrawingError, options: argparse.Namespace) -> str:
@@ -227,11 +230,6 @@ def import_nc(options: argparse.Namespace) -> None:
             say(note)
     for note in chosen.notes:
         say(note)
-
-
-def _given(value: object) -> bool:
-    """True if an option was typed; 0 is a value."""
-    return value is not None and value is not False and value != []
 
 
 def _center(options: argparse.Namespace) -> CenterPathTool | None:
