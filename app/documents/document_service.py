@@ -289,8 +289,6 @@ class DocumentService:
     def _open_here(self, path: Path) -> _OpenDocument | None:
         """Return the document that is open here under this or another name of the same file, None if there is none."""
         real = _real_path(path)
-        if real is None:
-            return None
         return next((entry for entry in self._open.values() if _real_path(entry.latest.file.path) == real), None)
 
     def changed(self, document: Document) -> bool:
