@@ -405,9 +405,15 @@ class CutcompApp(TransformActions):
         self.keep_settings(replace(self.settings, theme="light" if light else "dark"))
 
     def go_to(self, entry: Entry) -> None:
-        """Show MILL CONTOUR with the cursor on a finding's segment and field."""
+        """Show the form of a finding's field, MILL CONTOUR or a program-wide one, with the cursor on the field."""
+        from app.screens.parameters import ParametersScreen, PartSetupScreen
+
         segment = entry.segment or 0
         self.action_contour()
+        for screen in (ParametersScreen, PartSetupScreen):
+            if entry.field in {field.name for field in screen.FIELDS}:
+                self.push_screen(screen(entry.field or ""))
+                return
         self.move(FormPlace(self.session.place.block, segment), entry.field or SEGMENT_FIELD)
 
     def now(self) -> datetime:

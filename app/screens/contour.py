@@ -424,8 +424,7 @@ class ContourScreen(BlockActions, FormScreen):
     @on(OptionList.OptionSelected, "#findings")
     def _finding_chosen(self, event: OptionList.OptionSelected) -> None:
         """Go to the field that the finding is about."""
-        entry = self.entries[event.option_index]
-        self.go(entry.segment or 0, entry.field or SEGMENT_FIELD)
+        self.host.go_to(self.entries[event.option_index])
 
     # ---- the fields
 

@@ -49,6 +49,10 @@ class SettingsForm(FormScreen):
         Softkey("BACK", "app.back", "BACK"),
     )
 
+    def __init__(self, field: str = "") -> None:
+        super().__init__()
+        self._first_field = field or self.FIELDS[0].name
+
     def compose_body(self) -> ComposeResult:
         """Lay out the title and the form."""
         with Vertical(id="settings", classes="panel -bare"):
@@ -57,8 +61,8 @@ class SettingsForm(FormScreen):
             yield Form(self._cells(self.current_session.program.unit), id="settings-form", classes="fields")
 
     def on_mount(self) -> None:
-        """Put the cursor on the first field."""
-        self.focus_field(self.FIELDS[0].name)
+        """Put the cursor on the field that the screen was opened for, else on the first one."""
+        self.focus_field(self._first_field)
 
     def fields(self) -> tuple[Field, ...]:
         """Return the fields."""

@@ -113,13 +113,14 @@ def blend_findings(
             hit = next((gouge for gouge in gouges if first <= gouge.path_piece < last), None)
             if hit is not None:
                 text = f"The blend-{name} arc gouges {{value}} deep. Start elsewhere or reduce BLEND OFFSET with F4."
-                yield Finding("BLEND_GOUGES", Severity.ERROR, text, hit.surface_number, None, hit.at, hit.depth)
+                where = hit.surface_number, "blend_offset", hit.at, hit.depth
+                yield Finding("BLEND_GOUGES", Severity.ERROR, text, *where)
             if any(first <= row < last for row in wrong_side):
                 # its free end
                 end, way = (0, "from") if name == "in" else (-1, "to")
                 x, y = lead.points[end].tolist()
                 text = f"The blend-{name} arc {way} X {{x}} Y {{y}} crosses a wall. Reduce BLEND OFFSET with F4."
-                yield Finding("BLEND_LEAVES", Severity.WARNING, text, float(lead.numbers[end]), None, (x, y))
+                yield Finding("BLEND_LEAVES", Severity.WARNING, text, float(lead.numbers[end]), "blend_offset", (x, y))
 
 
 def rough_findings(rough: Sequence[RoughPass], finish: Compensated | None) -> Iterator[Finding]:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from dataclasses import replace
 from threading import Event
 
@@ -14,6 +15,7 @@ from app.screens.contour import ContourScreen
 from app.screens.dialogs import Question
 from app.screens.lookahead import LookaheadScreen
 from app.screens.palette import Palette
+from app.screens.parameters import ParametersScreen, PartSetupScreen
 from app.session.block_findings import block_findings
 from app.session.work import Work, derived
 from app.widgets.field import ChoiceField
@@ -336,12 +338,33 @@ async def test_a_number_half_typed_on_another_screen_leaves_the_covered_form_alo
     assert user.row("x_center").display
 
 
-async def test_going_to_a_finding_on_another_screen_puts_the_cursor_on_segment(user: Operator):
+async def test_going_to_a_finding_on_another_screen_opens_it_with_the_cursor_on_the_field(user: Operator):
     await user.press("f5", "tab", "'1", "tab", "f8", "pagedown", "tab", "tab")
     entry = next(finding for finding in user.screen.query_one(FindingsList).entries if finding.field == "work_offset")
     user.app.go_to(entry)
     await user.settle()
-    assert (user.session.place.segment, user.at) == (0, "segment")
+    assert isinstance(user.app.screen, PartSetupScreen)
+    assert user.at == "work_offset"
+    await user.press("f8")
+    assert isinstance(user.screen, ContourScreen)
+    assert (user.session.place.segment, user.at) == (1, "y_end")
+
+
+async def test_enter_on_the_finding_of_a_blend_arc_goes_to_blend_offset_which_names_what_fits(user: Operator):
+    await user.press("f4", "tab", "'2", "enter", "f8")
+    await user.finish()
+    await user.press("f10")
+    findings = user.screen.query_one("#findings", FindingsList)
+    row = next(at for at, entry in enumerate(findings.entries) if entry.field == "blend_offset")
+    await user.press(*["down"] * (row - (findings.highlighted or 0)), "enter")
+    assert isinstance(user.app.screen, ParametersScreen)
+    assert user.at == "blend_offset"
+    named = re.search(r"the largest that fits here is (\d\.\d+)\.$", user.prompt)
+    assert named is not None
+    await user.press(*(f"'{sign}" for sign in named[1]), "enter", "f8")
+    await user.finish()
+    assert isinstance(user.screen, ContourScreen)
+    assert not [entry for entry in user.screen.entries if entry.field == "blend_offset"]
 
 
 async def test_the_palette_can_be_reopened_at_once(user: Operator):
