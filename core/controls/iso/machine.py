@@ -321,12 +321,8 @@ class Machine(ModalState):
 
     def _motion(self, block: Block) -> None:
         words, mode = block.words, self.mode
-        if (
-            "X" in words
-            or "Y" in words
-            or "Z" in words
-            or (mode in _ARC_TURNS and not _ARC_CENTER_LETTERS.isdisjoint(words))
-        ):
+        centered = mode in _ARC_TURNS and not _ARC_CENTER_LETTERS.isdisjoint(words)
+        if "X" in words or "Y" in words or "Z" in words or centered:
             self._travel(block, mode)
         elif self.dialect.moves_alone and not _MOTION_CODES.isdisjoint(block.g):
             if mode in _ARC_TURNS:

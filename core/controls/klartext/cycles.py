@@ -70,11 +70,11 @@ def cycle(state: State, block: Block) -> None:
         state.log.stop("WORD", "CYCL needs DEF with a number, or CALL.", block)
     elif number in _OLD_CYCLES and head[3] == "0":
         pass  # only the cycle's name; what it does comes in the blocks after it
-    elif number in (7, 8, 10) and (head[3] or number == 7):
-        if number != 7:
-            _transform(state, rest, number)
-        elif head[3]:
+    elif number == 7:
+        if head[3]:
             shift(state, rest)
+    elif number in (8, 10) and head[3]:
+        _transform(state, rest, number)
     elif number in _NEUTRAL and _is_neutral(state, block, number, rest.body):
         state.log.inform("IGNORED", f"Cycle {number} is skipped: these values turn, mirror and scale nothing.", block)
     elif number == 247 and _at_the_start(state):

@@ -7,6 +7,7 @@ from math import radians
 from typing import Final
 
 from core.controls.compensation.elements import Element, offset_point
+from core.controls.compensation.recorder import side_of
 from core.controls.klartext.center_path import ProgrammedStep, Role
 from core.controls.klartext.lead_curves import Lead, LeadShape, departure
 from core.controls.klartext.m_functions import functions
@@ -38,7 +39,7 @@ def approach(state: State, block: Block) -> None:
     state.apply(block)
     element = straight_element(state, block, end, rapid=rapid, feed=feed)
     state.position, state.last = end, None
-    plane, hand = state.plane, _hand(state.offset, state.side)
+    plane, hand = state.plane, _hand(state, state.side)
     state.push(ProgrammedStep(Role.APPROACH, element, state.offset, plane, lead=lead, hand=hand, before=before))
 
 
@@ -55,7 +56,7 @@ def depart(state: State, block: Block) -> None:
     functions(state, words)
     state.moving(block, rapid=rapid, feed=feed)
     element = straight_element(state, block, goal, rapid=rapid, feed=feed)._replace(start_direction=last.end_direction)
-    hand = _hand(state.offset, state.applied)
+    hand = _hand(state, state.applied)
     state.push(ProgrammedStep(Role.DEPARTURE, element, state.offset, state.plane, lead=lead, hand=hand))
     state.position, state.last, state.side = goal, None, 0
     state.release()
@@ -110,12 +111,10 @@ def _goal(state: State, words: Words, shape: LeadShape, last: Element, lead: Lea
     if point != here:
         state.log.stop("WORD", f"DEP {shape} ends where its lead ends. Only DEP LCT takes an end point.", words.block)
     start = offset_point(here, last.end_direction, state.offset)
-    curve = departure(lead, start, here, last.end_direction, _hand(state.offset, state.applied))
+    curve = departure(lead, start, here, last.end_direction, _hand(state, state.applied))
     return list(solid(*(curve.point if curve else here), height, state.plane))
 
 
-def _hand(offset: float, side: int) -> int:
+def _hand(state: State, side: int) -> int:
     """Return the side of the tool, which a negative radius flips."""
-    if offset:
-        return 1 if offset > 0.0 else -1
-    return side
+    return side_of(state.offset).sign if state.offset else side

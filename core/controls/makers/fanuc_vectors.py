@@ -207,7 +207,7 @@ class VectorQueue(Recorder):
         self.note(element)
         if last is not None and last.startup:
             self.begin_stretch(last.offset)
-        elif last is not None and self.stretch_open:
+        elif last is not None:
             # a smaller radius applies from the slanting element on, a larger one only after it
             radius = min(abs(last.offset), abs(self.coming))
             self.change_stretch(copysign(radius, self.coming), 0, len(vectors) - 1)
