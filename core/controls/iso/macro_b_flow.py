@@ -114,7 +114,7 @@ class ModalCall:
 
 
 class MacroFlow(Flow):
-    """The rows of a program with macro statements; `numbers` and `starts` are each row's line and column less one.
+    """The rows of a program with macro statements; `spots` are the places at which they begin.
 
     `programs` has the rows at which the programs of a number begin, those of called files last.
     """
@@ -123,8 +123,7 @@ class MacroFlow(Flow):
         super().__init__([], machine, library)
         self.machine = machine
         self.variables = Variables(machine.value_of, machine.set_variable)
-        self.numbers: list[int] = []
-        self.starts: list[int] = []
+        self.spots: list[Spot] = []
         self.begins: list[int] = []
         self.main_lines = len(lines)
         self.statements: dict[int, Statement] = {}
@@ -133,7 +132,7 @@ class MacroFlow(Flow):
         self.calls = [Call(0)]
         self.programs: dict[int, list[int]] = {}
         self.modal_call: ModalCall | None = None
-        self.no_point: list[tuple[str, int, int]] = []
+        self.no_point: list[tuple[str, Spot]] = []
         self.rows_run_again = 0
         self.rows_without_movement = 0
         self.least_of_run: dict[tuple[int, int], float] = {}
@@ -150,7 +149,7 @@ class MacroFlow(Flow):
     def _programs(self) -> list[int]:
         """Return the rows at which the file's own programs begin, without those of called files."""
         first = [self._first_row()] if self.lines else []
-        return sorted({*first, *(row for row in self.begins if self.numbers[row] <= self.main_lines)})
+        return sorted({*first, *(row for row in self.begins if self.spots[row].line <= self.main_lines)})
 
     def _called_by_others(self) -> tuple[set[int], bool]:
         """Return the rows where programs begin that others in the file call; True if a variable may name another."""
@@ -176,7 +175,7 @@ class MacroFlow(Flow):
         main = next((row for row in programs if row not in self.called_programs), first)
         if main != first:
             text = f"cutcomp runs {self._name_of(main)}: {self._name_of(first)}, which stands before it, is called."
-            self.log.inform("PROGRAM", text, Spot(self.numbers[main], self.starts[main] + 1))
+            self.log.inform("PROGRAM", text, self.spots[main])
         return main
 
     def _name_of(self, row: int) -> str:
@@ -199,11 +198,13 @@ class MacroFlow(Flow):
         ranges = (self._range_of(row) for row in self._programs())
         idle = [first for first, last in ranges if first not in self.called_programs and not any(self.ran[first:last])]
         if idle:
-            names = ", ".join(f"{self._name_of(row)} (line {self.numbers[row]})" for row in idle[:MAX_NAMED_PROGRAMS])
+            names = ", ".join(
+                f"{self._name_of(row)} (line {self.spots[row].line})" for row in idle[:MAX_NAMED_PROGRAMS]
+            )
             more = f" and {len(idle) - MAX_NAMED_PROGRAMS} more" if len(idle) > MAX_NAMED_PROGRAMS else ""
             which = "a call with a variable may mean" if self.calls_by_variable else "nothing in this file calls"
             text = f"Programs that {which} were not run: {names}{more}. Check each by itself."
-            self.log.warn("NOT_RUN", text, Spot(self.numbers[idle[0]]))
+            self.log.warn("NOT_RUN", text, self.spots[idle[0]])
         if self.line_before is not None:
             text = "The lines from here to the % stand before the program and were not run. Check them."
             self.log.warn("NOT_RUN", text, Spot(self.line_before))
@@ -216,7 +217,7 @@ class MacroFlow(Flow):
         first, last = self.program
         ended = max((row for row in range(first, last) if self.ran[row]), default=last)
         after = next((row for row in range(ended + 1, last) if has_words(self.lines[row])), None)
-        return None if after is None or _NUMBER.match(self.lines[after]) else self.numbers[after]
+        return None if after is None or _NUMBER.match(self.lines[after]) else self.spots[after].line
 
     # rows
 
@@ -235,8 +236,7 @@ class MacroFlow(Flow):
                     continue
                 row = len(self.lines)
                 self.lines.append(text)
-                self.numbers.append(number)
-                self.starts.append(start)
+                self.spots.append(Spot(number, start + 1))
                 self.ran.append(0)
                 if self._head(text):
                     self.begins.append(row)
@@ -271,10 +271,10 @@ class MacroFlow(Flow):
         if rows_without_progress > MAX_ROWS_WITHOUT_PROGRESS + (1 + ROWS_OF_CALL) * len(self.lines):
             text = f"The program does not end: for {rows_without_progress} blocks or more, no condition of a loop or"
             text = f"{text} a jump came closer to its end. cutcomp stops here."
-            self.log.stop("LIMIT", text, Spot(self.numbers[line - 1]))
+            self.log.stop("LIMIT", text, self.spots[line - 1])
         if self.rows_run_again > MAX_ROWS_RUN_AGAIN or self.rows_without_movement > MAX_ROWS_WITHOUT_MOVEMENT:
             text = "The program does not end: a loop or a jump runs for ever. cutcomp stops here."
-            self.log.stop("LIMIT", text, Spot(self.numbers[line - 1]))
+            self.log.stop("LIMIT", text, self.spots[line - 1])
 
     def _note_progress(self, row: int, differences: list[float]) -> None:
         """Reset the count of rows without progress if the values that a condition compares are closer than ever before.
@@ -333,15 +333,15 @@ class MacroFlow(Flow):
             centered = _ARC.search(bare) and not _SCALE.search(bare)
             pattern = _WITHOUT_POINT if centered else _WITHOUT_POINT_NO_CENTER
             pattern = _ARGUMENTS_WITHOUT_POINT if _MACRO_CALL.search(bare) else pattern
-            for match in pattern.finditer(bare):
-                self.no_point.append((match[0], self.numbers[row], match.start() + self.starts[row] + 1))
+            line, column = self.spots[row]
+            self.no_point += [(match[0], Spot(line, match.start() + column)) for match in pattern.finditer(bare)]
 
     def _report_unset(self, row: int) -> None:
         """Report the first common variable that a row reads before the program sets it."""
         unset, self.variables.unset = self.variables.unset, []
         if unset:
             text = f"The program does not set #{unset[0]}; cutcomp takes it as vacant, 0 in a sum."
-            self.log.warn("PARAMETER", f"{text} The control may keep a value in it.", Spot(self.numbers[row]))
+            self.log.warn("PARAMETER", f"{text} The control may keep a value in it.", self.spots[row])
 
     def _statement(self, row: int) -> Statement:
         """Return a row as a macro statement, read once."""
@@ -355,11 +355,11 @@ class MacroFlow(Flow):
         words = without_comments(text)
         if is_words(words):
             self._note_points(words, row)
-            block = Block(self.numbers[row], self.lines[row], self.starts[row])
+            block = Block(self.spots[row].line, self.lines[row], self.spots[row].column - 1)
             plain = fill_words(block, pairs_in(words), self.log, self.dialect.syntax) if words.strip() else None
-            return Statement("", CompactText("", (), self.numbers[row]), plain=plain)
+            return Statement("", CompactText("", (), self.spots[row].line), plain=plain)
         bare = without_comments(text, COMMENT_GAP)
-        line = CompactText.of(bare, self.numbers[row], self.starts[row])
+        line = CompactText.of(bare, self.spots[row].line, self.spots[row].column - 1)
         if o_words_of([text]):
             message = "O-words are LinuxCNC's. Call subprograms with M98 and macros with G65; write IF, WHILE and GOTO."
             self.log.stop("WORD", message, line.place(0))
@@ -377,13 +377,13 @@ class MacroFlow(Flow):
         comment = re.search(r"\(([^)]*)", self.lines[row])
         quotation = f': "{quoted(comment[1])}"' if comment else ""
         text = f"The program stops itself here with alarm {3000 + number}{quotation}."
-        self.log.stop(f"MC{3000 + number}", text, Spot(self.numbers[row]))
+        self.log.stop(f"MC{3000 + number}", text, self.spots[row])
 
     # macro statements
 
     def _run_statement(self, statement: Statement, row: int) -> int:
         """Run a macro statement and return the row that comes next."""
-        self.machine.line = self.numbers[row]
+        self.machine.line = self.spots[row].line
         reader = MacroReader(statement.line.text, self.variables, statement.at)
         match statement.keyword:
             case "#":
@@ -405,7 +405,7 @@ class MacroFlow(Flow):
         set_variables(reader, line, self.variables, self.log)
         if "#3006=" in line.text:
             text = "The program shows a message here and waits for cycle start; cutcomp goes on."
-            self.log.inform("FN-MESSAGE", text, Spot(self.numbers[row]))
+            self.log.inform("FN-MESSAGE", text, self.spots[row])
 
     def _if(self, reader: MacroReader, line: CompactText, row: int) -> int:
         holds, consequence = self._condition(reader, row), _CONSEQUENCE.match(line.text, reader.at)
@@ -427,7 +427,7 @@ class MacroFlow(Flow):
 
     def _after_condition(self, statement: Statement, row: int) -> Statement:
         """Return the words of Haas's `[condition] M99 P`, none unless the condition is true."""
-        self.machine.line = self.numbers[row]
+        self.machine.line = self.spots[row].line
         reader = MacroReader(statement.line.text, self.variables, statement.at)
         true = reader.brackets() != 0.0
         return Statement("", statement.line, reader.at if true else len(reader.text))
@@ -487,7 +487,7 @@ class MacroFlow(Flow):
             last = self._range_of(row)[1]
             end = next((other for other in range(row + 1, last) if wanted.match(self._squeezed(other))), None)
             if end is None:
-                self.log.stop("PS0124", f"The loop DO{number} has no END{number}. Write it.", Spot(self.numbers[row]))
+                self.log.stop("PS0124", f"The loop DO{number} has no END{number}. Write it.", self.spots[row])
             self.ends[row] = end
         return end
 
@@ -500,7 +500,7 @@ class MacroFlow(Flow):
         begin = call.loops.get(number)
         if begin is None or self._end_of(number, begin) != row:
             text = f"END{number} has no DO{number} before it that is running. A jump must not lead into a loop."
-            self.log.stop("PS0124", text, Spot(self.numbers[row]))
+            self.log.stop("PS0124", text, self.spots[row])
         call.loops = {loop: other for loop, other in call.loops.items() if other < begin}
         return begin
 
@@ -526,7 +526,7 @@ class MacroFlow(Flow):
         """Return the block of words of a row, None if it has none."""
         if statement.plain is not None:
             return statement.plain
-        number = self.machine.line = self.numbers[row]
+        number = self.machine.line = self.spots[row].line
         line, start = statement.line, statement.at
         if line.text.startswith(":"):
             line = line._replace(text=f"O{line.text[1:]}")
@@ -542,7 +542,7 @@ class MacroFlow(Flow):
             self.log.inform("SKIP", "Block skip is assumed off, so this block runs.", Spot(number, skip))
         if not words:
             return None
-        block = Block(number, line.text, self.starts[row], evaluated=words, corner=corner)
+        block = Block(number, line.text, self.spots[row].column - 1, evaluated=words, corner=corner)
         return fill_words(block, words, self.log, self.dialect.syntax)
 
     def _following(self, row: int) -> Block | None:
@@ -616,7 +616,7 @@ class MacroFlow(Flow):
         """Return where a program begins in the main file, or in a file added for the line that makes this call."""
         caller = self.origin_of(block.line)[0]
         for start in self.programs.get(number, ()):
-            if self.numbers[start] <= self.main_lines or self.origin_of(self.numbers[start])[0] == caller:
+            if self.spots[start].line <= self.main_lines or self.origin_of(self.spots[start].line)[0] == caller:
                 return start
         return self._from_library(number, block)
 
@@ -680,7 +680,7 @@ class MacroFlow(Flow):
             message = "This looks like the body of a macro: it reads arguments that nothing sets. Call it with G65."
             self.log.inform("FN-BODY", message, Spot(1))
         if self.no_point:
-            (word, *place), count = self.no_point[0], len(self.no_point)
+            (word, place), count = self.no_point[0], len(self.no_point)
             word = "".join(word.split())
             value = float(word[1:])
             least = f"{plain(value / 1000)} mm" if self.machine.unit is Unit.MM else f"{plain(value / 10000)} in"
@@ -689,14 +689,14 @@ class MacroFlow(Flow):
             taken = (
                 f"cutcomp takes {word} as {plain(value)} {units}; {self.dialect.least_increment_setting} it is {least}."
             )
-            self.log.warn("FN-POINT", f"{which} no decimal point. {taken}", Spot(*place))
+            self.log.warn("FN-POINT", f"{which} no decimal point. {taken}", place)
         if not alarmed:
             self._report_not_run()
 
     def end_of_file(self) -> None:
         """Warn that the program ends without M30, M02 or M99."""
         text = "The program has no end. Write M30, or M99 in a subprogram."
-        self.log.warn("END", text, Spot(self.numbers[-1] if self.numbers else 1))
+        self.log.warn("END", text, self.spots[-1] if self.spots else Spot(1))
 
 
 def arguments_of(block: Block) -> dict[int, float]:
