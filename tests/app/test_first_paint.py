@@ -58,7 +58,7 @@ def standing(app):
 os.fsync, TerminalDriver.write, CutcompApp.on_ready = forcing, writing, standing
 guarded()
 """
-FORM = {"base", "block_actions", "contour", "contour_cells", "dialogs", "enter_stops", "field_texts", "form_screen"}
+FORM = {"base", "block_actions", "contour", "contour_cells", "dialogs", "field_texts", "form_screen"}
 LATER = {
     "app.cli.commands",
     "app.nc_proof.screen",
