@@ -9,7 +9,7 @@ offsets extended by the radius.  Entries, exits and changes of the radius are jo
 from __future__ import annotations
 
 from enum import Enum, auto
-from math import dist, hypot, pi
+from math import dist, hypot, pi, radians
 from typing import Final, NamedTuple
 
 from core.controls.compensation.elements import (
@@ -31,6 +31,12 @@ SAME_POINT: Final = 1e-9
 
 LEAST_INCREMENT: Final = 0.001
 """Millimeters that controls count in: points so near are one point."""
+
+MAX_TANGENT_ANGLE: Final = radians(0.05)
+"""The angle under which corners count as tangent on controls whose own limit is not known.
+
+Centers are rounded to three digits: where an arc and a line were drawn tangent, their offsets may not meet.
+"""
 
 RIGHT_ANGLE: Final = pi / 2 + 1e-9
 """Turns up to this angle are extended to the miter point."""

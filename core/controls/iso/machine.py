@@ -44,7 +44,7 @@ _G49: Final = 490
 _OTHER_AXES: Final = "ABCUVW"
 _ARC_TURNS: Final = {20: -1, 30: 1}
 _G53: Final = 530
-_G80: Final = 800
+G80: Final = 800
 _SURFACE_SPEED: Final = 960
 _TOOL_CHANGE: Final = 60
 _PLANE_CODES: Final = {Plane.XY: 170.0, Plane.ZX: 180.0, Plane.YZ: 190.0}
@@ -53,7 +53,7 @@ _LINE_CODES: Final = (0, 10)
 _MOTION_CODES: Final = frozenset((0, 10, 20, 30))
 _END_CODES: Final = frozenset((20, 300))
 _STOP_CODES: Final = frozenset((0, 10, 600))
-_ARC_CENTER_LETTERS: Final = frozenset("IJKR")
+ARC_CENTER_LETTERS: Final = frozenset("IJKR")
 
 
 LEFT_OPEN: Final = "The program ends under compensation. Write G40 and a move away from the part."
@@ -207,7 +207,7 @@ class Machine(ModalState):
         known, groups = list[Code](), set[str]()
         for number in block.g:
             code = self.dialect.codes[number]
-            if number == _G80 and code.group == "motion" and self._moves_in(block):
+            if number == G80 and code.group == "motion" and self._moves_in(block):
                 continue
             if code.group in groups and self.dialect.last_code_counts:
                 known = [other for other in known if other.group != code.group]
@@ -230,12 +230,12 @@ class Machine(ModalState):
 
     def _moves_in(self, block: Block) -> bool:
         """True if a block has a code of the motion group besides G80."""
-        known = (self.dialect.codes.get(number) for number in block.g if number != _G80)
+        known = (self.dialect.codes.get(number) for number in block.g if number != G80)
         return any(code is not None and code.group == "motion" for code in known)
 
     def _set(self, code: Code, block: Block) -> None:
         match code.action:
-            case CodeAction.MOTION if code.value == _G80 and code.group == "cycle":
+            case CodeAction.MOTION if code.value == G80 and code.group == "cycle":
                 self.mode = self.mode if self.mode in _MOTION_CODES else self.cycle.mode_before
                 self.cycle.code = None
             case CodeAction.MOTION:
@@ -321,7 +321,7 @@ class Machine(ModalState):
 
     def _motion(self, block: Block) -> None:
         words, mode = block.words, self.mode
-        centered = mode in _ARC_TURNS and not _ARC_CENTER_LETTERS.isdisjoint(words)
+        centered = mode in _ARC_TURNS and not ARC_CENTER_LETTERS.isdisjoint(words)
         if "X" in words or "Y" in words or "Z" in words or centered:
             self._travel(block, mode)
         elif self.dialect.moves_alone and not _MOTION_CODES.isdisjoint(block.g):
@@ -336,7 +336,7 @@ class Machine(ModalState):
             self._straight(block, self.target(block.words), rapid=mode == 0)
         elif mode in _ARC_TURNS:
             self._arc(block, _ARC_TURNS[mode])
-        elif mode is None or mode == _G80:
+        elif mode is None or mode == G80:
             self.log.stop("MOTION", "Axis words without a motion in force; write G0, G1, G2 or G3.", block.at("XYZ"))
         else:
             self._drill(block)

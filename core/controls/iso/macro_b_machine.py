@@ -47,7 +47,7 @@ _CANCEL_CODES: Final = (150, 500, 690)
 """Codes that cancel a transform and leave the axis words of their block for a move."""
 
 _LINE_CODE: Final = 10
-_ARC_CODES: Final = frozenset({20, 30})
+ARC_CODES: Final = frozenset({20, 30})
 
 _CLOCK_VARIABLES: Final = (3001, 3002, 3011, 3012)
 _POSITION_VARIABLES: Final = frozenset((5001, 5002, 5003, 5041, 5042, 5043))
@@ -179,7 +179,7 @@ class MacroMachine(Machine):
 
     def _motion(self, block: Block) -> None:
         if block.corner is not None:
-            if self.mode in _ARC_CODES:
+            if self.mode in ARC_CODES:
                 self._stop_at_arc_corner(block)
             if self.mode != _LINE_CODE or {"X", "Y", "Z"}.isdisjoint(block.words):
                 self._stop_without_two_lines(block)
@@ -199,7 +199,7 @@ class MacroMachine(Machine):
         if block.corner is None or block is not self.current:
             super()._straight(block, end, rapid=rapid)
             return
-        if following is not None and not _ARC_CODES.isdisjoint(following.g):
+        if following is not None and not ARC_CODES.isdisjoint(following.g):
             self._stop_at_arc_corner(block)
         if following is None or rapid or not self._goes_on_straight(following):
             self._stop_without_two_lines(block)

@@ -16,8 +16,8 @@ from core.controls.control_run import Log, Place, Spot
 from core.controls.iso.dialect import CYCLES_APART, PLANE_OF_CODE, USUAL_CODES, CodeAction, Dialect, codes
 from core.controls.iso.expressions import ParameterStore
 from core.controls.iso.flow import MakeControl
-from core.controls.iso.machine import LEFT_OPEN, NON_MODAL_ACTIONS, Control
-from core.controls.iso.macro_b_machine import HAAS_SYSTEMS, MacroMachine
+from core.controls.iso.machine import ARC_CENTER_LETTERS, LEFT_OPEN, NON_MODAL_ACTIONS, Control
+from core.controls.iso.macro_b_machine import ARC_CODES, HAAS_SYSTEMS, MacroMachine
 from core.controls.iso.reader import COMPENSATION_CODES, Block, Syntax, whole_word
 from core.controls.makers.fanuc_vectors import Alarms, VectorQueue, VectorRules, vector_meeting
 from core.controls.moves import flat
@@ -102,7 +102,6 @@ _UNBUFFERED_G: Final = frozenset((280, 300, 310, 530))
 _UNBUFFERED_M: Final = frozenset((0, 10, 20, 300))
 _CALL_CODES: Final = frozenset((980, 990))
 _TRANSFORM_CODES: Final = frozenset((680, 690, 510, 500, 511, 501))
-_ARC_MODES: Final = (20, 30)
 
 
 class Fanuc(VectorQueue, Control):
@@ -254,7 +253,7 @@ class Fanuc(VectorQueue, Control):
         if any(code in codes and codes[code].action in NON_MODAL_ACTIONS for code in block.g):
             return False
         letters = _PLANE_LETTERS[self.plane]
-        turns = self.machine.mode in _ARC_MODES and not {"I", "J", "K", "R"}.isdisjoint(block.words)
+        turns = self.machine.mode in ARC_CODES and not ARC_CENTER_LETTERS.isdisjoint(block.words)
         return letters[0] in block.words or letters[1] in block.words or turns
 
     def maker_code(self, code: int, block: Block) -> None:

@@ -9,7 +9,7 @@ they do, it drops the pair of vectors nearest to each other, then the next pair,
 from __future__ import annotations
 
 from dataclasses import dataclass, field
-from math import copysign, hypot, radians
+from math import copysign, hypot
 from typing import Final
 
 from core.controls.compensation import corner_rules, elements
@@ -19,9 +19,6 @@ from core.controls.compensation.recorder import Recorder
 from core.controls.control_run import Log
 from core.controls.moves import solid
 from core.geometry.piece import Point
-
-MAX_TANGENT_ANGLE: Final = radians(0.05)
-"""Inside corners under this angle whose offsets do not meet count as tangent: centers are rounded to three digits."""
 
 POINT_ARC: Final = 1e-6
 """Millimeters: an inside arc whose radius differs from the tool's by at most this is a point of the center path."""
@@ -188,7 +185,7 @@ class VectorQueue(Recorder):
         return self._without_meeting(first, second, offset) if joint.missed else joint
 
     def _without_meeting(self, first: Element, second: Element, offset: float) -> Joint:
-        if corner_rules.inward_turn(first, second, offset) >= MAX_TANGENT_ANGLE:
+        if corner_rules.inward_turn(first, second, offset) >= corner_rules.MAX_TANGENT_ANGLE:
             text = "The offsets of this inside corner do not meet. Use a smaller cutter or open the corner."
             self.log.stop(self.alarms.no_meeting, text, second, at=first.end)
         return Joint(elements.offset_end(first, offset), elements.offset_start(second, offset))

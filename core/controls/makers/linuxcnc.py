@@ -18,7 +18,7 @@ from core.controls.iso.arcs import ArcTolerance
 from core.controls.iso.code_support import D_AND_H_ANYWHERE
 from core.controls.iso.dialect import PLANE_OF_CODE, USUAL_CODES, CodeAction, Dialect, codes
 from core.controls.iso.expressions import ParameterStore
-from core.controls.iso.machine import Control
+from core.controls.iso.machine import ARC_CENTER_LETTERS, G80, Control
 from core.controls.iso.modal_state import system_code
 from core.controls.iso.reader import COMPENSATION_CODES, Block, Syntax, whole, whole_word
 from core.controls.moves import Plane, flat, solid
@@ -98,7 +98,7 @@ class LinuxCnc(OneMoveQueue, Control):
             self.log.stop("N-DALONE", text, block.at("D"))
         if not _OTHERS.isdisjoint(words) or block.m or len(block.g) > 1 or 40 in block.g:
             self._other_words(block)
-        if not _ARC_CENTER_LETTERS.isdisjoint(words):
+        if not ARC_CENTER_LETTERS.isdisjoint(words):
             self._arc_words(block)
         for code in block.g:
             if code // 10 == 38 and code != 380:
@@ -182,7 +182,7 @@ class LinuxCnc(OneMoveQueue, Control):
     def _motion(self, block: Block) -> int | None:
         """Return the motion code that a block's words belong to."""
         given = [code for code in block.g if code in DIALECT.codes and DIALECT.codes[code].group == "motion"]
-        return next((code for code in given if code != _G80), given[0] if given else self.machine.mode)
+        return next((code for code in given if code != G80), given[0] if given else self.machine.mode)
 
     def _set_tool(self, block: Block) -> None:
         """M61 Q: set the number of the tool in the spindle, without a tool change."""
@@ -273,7 +273,6 @@ class LinuxCnc(OneMoveQueue, Control):
         return int(block.words.get("L", 0.0))
 
 
-_G80: Final = 800
 _G10: Final = 100
 _ORIENT_CODE: Final = 190
 _SET_TOOL_CODE: Final = 610
@@ -313,4 +312,3 @@ _M_GROUPS: Final = tuple(
     )
 )
 """Stops, spindle, tool, coolant, overrides, outputs, user codes: the interpreter refuses two of a group in a block."""
-_ARC_CENTER_LETTERS: Final = frozenset("IJKR")

@@ -10,7 +10,6 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from functools import partial
-from math import radians
 from typing import Final, NamedTuple
 
 from core.controls.compensation import corner_rules
@@ -42,9 +41,6 @@ DIALECT: Final = Dialect(
     syntax=Syntax(semicolon_ends=True, corners=True),
     d_anywhere=True,
 )
-
-MAX_TANGENT_ANGLE: Final = radians(0.05)
-"""Inside corners under this angle whose offsets do not meet count as tangent; the control's own limit is not known."""
 
 NON_MOTION: Final = 10
 """Most blocks without motion in the plane that compensation looks across: assumed, as the machine builder sets it."""
@@ -256,7 +252,7 @@ class NineSeries(ElementQueue, Control):
     def _missed(self, first: Element, second: Element) -> Joint:
         """Return the joint of an inside corner whose offsets do not meet: it is tangent, or an alarm."""
         end = offset_end(first, self.offset)
-        if corner_rules.inward_turn(first, second, self.offset) < MAX_TANGENT_ANGLE:
+        if corner_rules.inward_turn(first, second, self.offset) < corner_rules.MAX_TANGENT_ANGLE:
             return Joint(end, end)
         text = "The offset paths do not meet at this inside corner: the compensation vectors cross."
         self._interference("R10", text, second)

@@ -9,10 +9,10 @@ goes straight from the square end of the last element to its own end point.
 from __future__ import annotations
 
 import re
-from math import dist, radians
+from math import dist
 from typing import Final, NoReturn
 
-from core.controls.compensation.corner_rules import CornerKind, CornerRules, Joint
+from core.controls.compensation.corner_rules import MAX_TANGENT_ANGLE, CornerKind, CornerRules, Joint
 from core.controls.compensation.element_queue import ElementQueue
 from core.controls.compensation.elements import Element, element_sweep, fits, offset_end, offset_radius, offset_start
 from core.controls.control_run import Log, Place, Spot
@@ -38,9 +38,6 @@ DIALECT: Final = Dialect(
     subprograms=False,
     cycles=False,
 )
-
-MAX_TANGENT_ANGLE: Final = radians(0.05)
-"""Corners under this angle count as tangent; the control's own limit is not known."""
 
 SHORTEST_BLOCK_SECONDS: Final = 0.25
 """Seconds: a block that takes less makes the control dwell."""
