@@ -15,7 +15,7 @@ import numpy as np
 from numpy.typing import NDArray
 from shapely.geometry.base import BaseGeometry
 
-from core.geometry.path import EMPTY, Floats, Path
+from core.geometry.path import EMPTY, Floats, Path, point_of_row
 from core.geometry.path_parts import NO_PARTS, PathParts
 from core.geometry.piece import Line, Piece, Point
 from core.tolerance import LARGEST_COORDINATE
@@ -268,5 +268,4 @@ def _plunge(leads: Sequence[Path], path: Path) -> Iterator[Mark]:
     """Yield the mark where the cutter plunges: the start of the first lead, or of the path."""
     first = next((lead for lead in leads if len(lead)), path)
     if len(first):
-        x, y = first.points[0].tolist()
-        yield Mark((x, y), Style.LEAD, Symbol.PLUNGE)
+        yield Mark(point_of_row(first.points[0]), Style.LEAD, Symbol.PLUNGE)

@@ -48,7 +48,9 @@ _Make = Callable[[Points, float], "_Fit | None"]
 
 def fit_arcs(pieces: Sequence[Piece], fit: float, *, closed: bool) -> Fitted:
     """Fit the runs of lines in a joined chain within `fit` millimeters."""
-    start = _first_break(pieces) if closed else 0
+    # the first piece of a ring that starts a new run; None if it is smooth lines all around
+    breaks = (row for row, piece in enumerate(pieces) if not _goes_on(pieces[row - 1], piece))
+    start = next(breaks, None) if closed else 0
     if start is None:
         fitted, off = _ring(_points(pieces), fit)
         return Fitted(tuple(fitted), len(pieces), off)
@@ -61,11 +63,6 @@ def fit_arcs(pieces: Sequence[Piece], fit: float, *, closed: bool) -> Fitted:
     fits = [_open_run(_points(run), fit) if isinstance(run[0], Line) else (run, 0.0) for run in runs]
     made = tuple(piece for fitted, _ in fits for piece in fitted)
     return Fitted(made, len(pieces), max((off for _, off in fits), default=0.0))
-
-
-def _first_break(pieces: Sequence[Piece]) -> int | None:
-    """Return the row of a ring's first piece that starts a new run; None if it is smooth lines all around."""
-    return next((row for row, piece in enumerate(pieces) if not _goes_on(pieces[row - 1], piece)), None)
 
 
 def _goes_on(before: Piece, after: Piece) -> bool:

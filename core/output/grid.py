@@ -77,7 +77,7 @@ class ArcPart:
 
 def arc_parts(arc: Arc, grid: Grid, first: float = 0.0, last: float = 1.0) -> Iterator[ArcPart]:
     """Yield the arc from one share to another in parts that rounding does not change, in order: mostly one arc."""
-    start, end = (_point_at(arc, share) for share in (first, last))
+    start, end = ({0.0: arc.start, 1.0: arc.end}.get(share) or arc.point_at(share) for share in (first, last))
     sweep, radius = arc.sweep * (last - first), grid.fine(arc.radius)
     (cx, cy), (x, y) = arc.center, grid.point(start)
     finer = 10**EXTRA_CENTER_DECIMALS
@@ -91,10 +91,6 @@ def arc_parts(arc: Arc, grid: Grid, first: float = 0.0, last: float = 1.0) -> It
         middle = (first + last) / 2
         yield from arc_parts(arc, grid, first, middle)
         yield from arc_parts(arc, grid, middle, last)
-
-
-def _point_at(arc: Arc, share: float) -> Point:
-    return {0.0: arc.start, 1.0: arc.end}.get(share) or arc.point_at(share)
 
 
 def _survives(start: Point, end: Point, center: Steps, sweep: float, radius: float, grid: Grid) -> bool:

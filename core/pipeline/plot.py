@@ -90,6 +90,9 @@ def block_scene(block: DerivedBlock, segment: int | None, unit: Unit, row: Row |
         loops = (control,)
     surface, first = _surface(block), loops[0] if loops else CenterPath(EMPTY)
     place = None if segment is None else _place(loops, control, segment)
+    gouges = [] if verdict is None else [gouge.surface_at for gouge in verdict.gouges]
+    # where the path cuts into the contours of other blocks
+    gouges += [found.at for found in block.findings if found.code == "OTHER_BLOCK" and found.at is not None]
     return contour_scene(
         surface,
         unit=unit,
@@ -102,7 +105,7 @@ def block_scene(block: DerivedBlock, segment: int | None, unit: Unit, row: Row |
         deleted=NO_PARTS if control is None else _deleted(control),
         meetings=() if control is None else list(dict.fromkeys(zip(*control.deleted.at.T.tolist(), strict=True))),
         over_run=NO_PARTS if verdict is None else _over_run(surface, verdict),
-        gouges=[*(() if verdict is None else [gouge.surface_at for gouge in verdict.gouges]), *_cuts_of_others(block)],
+        gouges=gouges,
         uncut=NO_PARTS if verdict is None or not verdict.uncut else parts_between(surface, verdict.uncut_ends),
         cutter=None if place is None or block.radius is None else (place, block.radius),
         current=_current(block, segment),
@@ -235,11 +238,6 @@ def _segment_labels(block: DerivedBlock) -> tuple[Label, ...]:
             size = hypot(x, y) * (1.0 if block.side is Side.RIGHT else -1.0)
             labels.append(Label(at, str(number), (-y / size, x / size)))
     return tuple(labels)
-
-
-def _cuts_of_others(block: DerivedBlock) -> list[Point]:
-    """Return where the block's path cuts into the contours of other blocks."""
-    return [found.at for found in block.findings if found.code == "OTHER_BLOCK" and found.at is not None]
 
 
 def _over_run(surface: Path, verdict: Verdict) -> PathParts:

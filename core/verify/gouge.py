@@ -10,7 +10,8 @@ import numpy as np
 
 from core.geometry.distance import between, foot, nearest_fractions
 from core.geometry.nearby import changes
-from core.geometry.path import Floats, Path, Rows, coordinates
+from core.geometry.path import Floats, Path, Rows
+from core.geometry.piece import point_of
 from core.geometry.piece_arrays import PieceArrays, at, blocks, fraction
 from core.tolerance import GOUGE, JOINED, ON_PATH
 from core.verify.pairs import NO_INTERVALS, Intervals, Pairs, Parts, joined, measured, merged, uneven_slack, within
@@ -91,8 +92,7 @@ def closest(pairs: Pairs, surface: Path) -> Approach | None:
     piece, wall = pairs.pieces.take(pairs.i[pair[first]]), pairs.others.take(pairs.j[pair[first]])
     center = at(piece, fraction(spots[first] - pairs.stations[pairs.i[pair[first]]], piece.length))
     cut = at(wall, foot(wall, center))
-    (x, y), (u, v) = coordinates(center)[0].tolist(), coordinates(cut)[0].tolist()
-    return Approach(float(least), (x, y), (u, v), float(surface.numbers[wall.rows[0]]))
+    return Approach(float(least), point_of(center[0]), point_of(cut[0]), float(surface.numbers[wall.rows[0]]))
 
 
 def _loops(moves: PieceArrays) -> Rows:

@@ -20,7 +20,7 @@ from core.comp.best_path.slices import sliced
 from core.comp.best_path.stitch import StitchedSlices, chains, path_of_slices, stitch
 from core.finding import Finding, Severity
 from core.geometry.path import Path, Rows
-from core.geometry.piece import Side
+from core.geometry.piece import Side, point_of
 from core.tolerance import GOUGE, JOINED, WHISKER
 
 MAX_LOOPS: Final = 10_000
@@ -107,8 +107,7 @@ def _joined(raw: RawOffset, made: StitchedSlices, rows: Rows, surface: PreparedC
     piece = int(np.argmax(joints))
     if joints[piece] <= JOINED:
         return ()
-    end = complex(raw.end[piece])
-    at = (end.real + float(surface.origin[0]), end.imag + float(surface.origin[1]))
+    at = point_of(complex(raw.end[piece]) + complex(*surface.origin))
     text = "Neighbors' offsets that miss each other by rounding are joined; the largest gap is {0~1}."
     number, gap = float(raw.numbers[piece]), float(joints[piece])
     return (Finding("BEST_JOINED", Severity.INFO, text, number, at=at, lengths=(gap, 0.0)),)
@@ -122,7 +121,6 @@ def _broken(raw: RawOffset, made: StitchedSlices, rows: Rows, surface: PreparedC
         return ()
     row = int(loose[0])
     node, piece = (cut.last[row], cut.until[row]) if made.loose_end[row] else (cut.first[row], cut.piece[row])
-    place = complex(cut.points[node])
-    at = (place.real + float(surface.origin[0]), place.imag + float(surface.origin[1]))
+    at = point_of(complex(cut.points[node]) + complex(*surface.origin))
     text = "The best path does not close near X {x} Y {y}."
     return (Finding("BEST_BROKEN", Severity.WARNING, text, float(raw.numbers[piece]), at=at),)

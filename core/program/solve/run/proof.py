@@ -56,12 +56,11 @@ def _line(run: Run, index: int, start: Point, end: Point, branch: Branch) -> tup
     vector = (end[0] - start[0], end[1] - start[1])
     if hypot(*vector) <= JOINED:
         return None, [reasons.no_length(run.elements[index])]
-    if heading is None:
-        return Line(start, end), []
-    tx, ty = direction(heading)
-    ahead = vector[0] * tx + vector[1] * ty
-    if ahead < 0.0:
-        return Line(start, end), [reasons.line_runs_backward(run, index, -ahead, heading)]
+    if heading is not None:
+        tx, ty = direction(heading)
+        ahead = vector[0] * tx + vector[1] * ty
+        if ahead < 0.0:
+            return Line(start, end), [reasons.line_runs_backward(run, index, -ahead, heading)]
     return Line(start, end), []
 
 
