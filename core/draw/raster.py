@@ -297,7 +297,8 @@ def _shaded(area: Area, view: View, look: Cells, columns: int, rows: int) -> Row
     (x, y), half_width, half_height = view.center, columns / 2, rows * CELL_HEIGHT / 2
     along = x + ((across[spread] + 0.5) * wide - half_width) * view.scale
     up = y + (half_height - (down[spread] + 0.5) * high) * view.scale
-    return _bits(look, columns, rows)[spread][inside(area.region, along, up)]
+    bits: Rows = _bits(look, columns, rows)[spread][inside(area.region, along, up)]
+    return bits
 
 
 def _light(
@@ -336,7 +337,8 @@ def _bits(look: Cells, columns: int, rows: int) -> Rows:
     """Return (dots,) the bit that each dot of a window lights, row by row; each cell has eight bits."""
     down, across = np.divmod(np.arange(rows * look.down * columns * look.across), columns * look.across)
     cell = down // look.down * columns + across // look.across
-    return cell * 8 + look.bit[down % look.down * look.across + across % look.across]
+    bits: Rows = cell * 8 + look.bit[down % look.down * look.across + across % look.across]
+    return bits
 
 
 def _dots(lines: Chords, look: Cells, columns: int, rows: int) -> tuple[Rows, Floats, Rows]:

@@ -212,7 +212,8 @@ def _overlap(a: Pieces, b: Pieces) -> Flags:
 
 def _middle(arc: Pieces) -> Points:
     """Return the point halfway along each arc."""
-    return arc.center + (arc.start - arc.center) * np.exp(1j * swept(arc) / 2.0 * arc.turn)
+    middle: Points = arc.center + (arc.start - arc.center) * np.exp(1j * swept(arc) / 2.0 * arc.turn)
+    return middle
 
 
 def _inside(arc: Pieces, point: Points) -> Flags:

@@ -149,7 +149,8 @@ def _diagonals(boxes: Floats) -> np.ndarray[tuple[int], np.dtype[np.object_]]:
 def _apart(first: Floats, second: Floats) -> Floats:
     """Return the distances between boxes, 0 where they meet."""
     gaps = np.maximum(np.maximum(first[:2] - second[2:], second[:2] - first[2:]), 0.0)
-    return np.hypot(gaps[0], gaps[1])
+    distances: Floats = np.hypot(gaps[0], gaps[1])
+    return distances
 
 
 @dataclass(frozen=True, eq=False, slots=True)

@@ -56,7 +56,8 @@ class PieceArrays:
     @property
     def arcs(self) -> Flags:
         """(n,) True for arcs."""
-        return self.turn != 0.0
+        curved: Flags = self.turn != 0.0
+        return curved
 
     @property
     def end(self) -> Points:

@@ -175,7 +175,8 @@ def _equally_far(pairs: Pairs, spans: _Spans) -> Floats:
         after = np.maximum(np.argmax(nearer < 0.0, axis=0), 1)
         (low, high), (more, less) = ((of[after - 1, each], of[after, each]) for of in (fractions, nearer))
     met = low + (high - low) * np.where(more > less, more / (more - less), 0.5)
-    return (met - begin) / (end - begin)
+    shares: Floats = (met - begin) / (end - begin)
+    return shares
 
 
 def _divide(pairs: Pairs, spans: _Spans, share: Floats, best: Farthest) -> tuple[_Spans, Farthest]:

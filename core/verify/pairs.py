@@ -120,18 +120,21 @@ def _measured(pieces: PieceArrays, i: Rows, others: PieceArrays, j: Rows) -> tup
 
 def keeping(pairs: Pairs, radius: float) -> Flags:
     """True for pairs whose other piece is no farther than the radius from the piece's ends and its middle."""
-    return pairs.from_piece.max(axis=0) <= radius + pairs.grant + STOCK
+    near: Flags = pairs.from_piece.max(axis=0) <= radius + pairs.grant + STOCK
+    return near
 
 
 def along(pairs: Pairs, limit: Floats) -> Flags:
     """True for pairs whose other piece is surely within the limit of all of the piece: its start, middle and end are
     within the limit, and both are lines or concentric arcs."""
-    return (pairs.from_piece.max(axis=0) <= limit) & _alike(pairs)
+    near: Flags = (pairs.from_piece.max(axis=0) <= limit) & _alike(pairs)
+    return near
 
 
 def covering(pairs: Pairs, limit: Floats) -> Flags:
     """True for pairs whose piece is surely within the limit of all of the other piece."""
-    return (pairs.from_other.max(axis=0) <= limit) & _alike(pairs)
+    near: Flags = (pairs.from_other.max(axis=0) <= limit) & _alike(pairs)
+    return near
 
 
 def _alike(pairs: Pairs) -> Flags:
@@ -153,7 +156,8 @@ def _about_one_center(piece: PieceArrays, other: PieceArrays) -> Flags:
     middles = [arc.arm * np.exp(0.5j * arc.turn * arc.angle) for arc in (piece, other)]
     between = np.abs(np.angle(middles[0] * np.conj(middles[1])))
     once = (piece.angle + other.angle) / 2.0 + between < tau - MIN_SEPARATE_ANGLE
-    return (np.abs(piece.center - other.center) <= ON_PATH) & once
+    alike: Flags = (np.abs(piece.center - other.center) <= ON_PATH) & once
+    return alike
 
 
 @dataclass(frozen=True, eq=False, slots=True)

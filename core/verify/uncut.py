@@ -115,7 +115,8 @@ def _in_thin_runs(pairs: Pairs, whole: Flags, radius: float, *, closed: bool) ->
         runs[runs == runs[-1]] = 0
     reported = np.zeros(len(whole) + 1, np.bool_)
     reported[runs[thick]] = True
-    return ~reported[runs]
+    thin: Flags = ~reported[runs]
+    return thin
 
 
 def gaps_of(pairs: Pairs, whole: Flags, radius: float) -> Gaps:
@@ -263,4 +264,5 @@ def _sectors(pieces: PieceArrays, parts: Intervals, starts: Floats, corner: Poin
     angle = np.angle(np.conj(first) * middle) + np.angle(np.conj(middle) * last)
     swept = (t[2] - t[0]) * pieces.angle
     bow = pieces.turn * pieces.radius**2 * (swept - np.sin(swept))
-    return 0.5 * ((np.conj(first) * last).imag + bow - radius * radius * angle)
+    areas: Floats = 0.5 * ((np.conj(first) * last).imag + bow - radius * radius * angle)
+    return areas

@@ -188,7 +188,8 @@ def _meet_next_only_at_joint(path: Path) -> Flags:
         tangent = _tangent_and_counter_turning(path, swept, turned)
         turned += swept + next_in_ring(swept)
         turned[tangent] = 0.0
-    return turned <= _UNDER_HALF_TURN
+    only_at_joint: Flags = turned <= _UNDER_HALF_TURN
+    return only_at_joint
 
 
 def _tangent_and_counter_turning(path: Path, swept: Floats, joint: Floats) -> Flags:
@@ -208,7 +209,8 @@ def _at_joint(path: Path, i: Rows, j: Rows, at: Points) -> Flags:
     points = as_complex(path.points)
     near = (j - i == 1) & (np.abs(at - points[j]) <= JOINED)
     around = (i == 0) & (j == len(path) - 1) & (np.abs(at - points[0]) <= JOINED) & (points[0] == points[-1])
-    return near | around
+    at_joint: Flags = near | around
+    return at_joint
 
 
 def winds(path: Path, radius: float) -> bool:
