@@ -437,12 +437,14 @@ def _nested(contours: Sequence[Contour]) -> list[Contour]:
     crossed = crossings([contour.pieces for contour in closed], MAX_CROSSING_CHECK)
     areas = [contour.area for contour in closed]
     parents = [min(outer, key=areas.__getitem__, default=None) for outer in inside]
-
-    def lineage(row: int) -> tuple[int, ...]:
-        parent = parents[row]
-        return (row,) if parent is None else (*lineage(parent), row)
-
-    order = sorted(range(len(closed)), key=lineage)
+    children: dict[int | None, list[int]] = {}
+    for row, parent in enumerate(parents):
+        children.setdefault(parent, []).append(row)
+    # no recursion: thousands of rings may lie in one another
+    order, waiting = list[int](), children.get(None, [])[::-1]
+    while waiting:
+        order.append(waiting.pop())
+        waiting += children.get(order[-1], [])[::-1]
     numbers = {row: number for number, row in enumerate(order, 1)}
     listed = []
     for row in order:

@@ -698,3 +698,11 @@ def test_arcs_that_overlap_keep_what_continues_at_their_ends(
     assert (cleaned.overlaps, len(cleaned.pieces)) == (1, 3)
     (joined,) = (item.piece for item in cleaned.pieces if isinstance(item.piece, Arc))
     assert abs(joined.sweep) == pytest.approx(math.radians(150))
+
+
+def test_a_thousand_rings_in_one_another_are_listed_from_the_outermost_in() -> None:
+    # more than Python's calls may be nested
+    rings = 1010
+    contours = listed(dxf(*(circle((0.0, 0.0), 1.0 + 0.5 * ring) for ring in range(rings)))).contours
+    assert [contour.depth for contour in contours] == list(range(rings))
+    assert [contour.inside for contour in contours] == list(range(rings))
