@@ -62,9 +62,9 @@ MOST_DECIMALS: Final = 20
 """A conversion that needs this many decimals or more keeps them all."""
 
 EXTRA_DECIMALS: Final = 6
+"""Most decimals that a sentence adds to a form's decimals: for two nearly equal lengths, or a limit that shows as 0."""
 LAST_DIGITS: Final = 1e-9
 """By how much, in program units, rounding may have moved a limit that was calculated from typed numbers."""
-"""Most decimals that a sentence adds to a form's decimals to tell two nearly equal lengths apart."""
 
 
 def to_mm(value: float, unit: Unit) -> float:

@@ -1,4 +1,4 @@
-"""JudgedContour contours: the verdicts on the contours of a compensated stretch, and what else its findings need."""
+"""Judged contours: the verdicts on the contours of a compensated stretch, and what else its findings need."""
 
 from __future__ import annotations
 

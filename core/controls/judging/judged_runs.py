@@ -1,4 +1,4 @@
-"""JudgedContour runs show what a control's path does to the contours that the program describes, by program line."""
+"""Judged runs show what a control's path does to the contours that the program describes, by program line."""
 
 from __future__ import annotations
 

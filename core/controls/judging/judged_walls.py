@@ -1,4 +1,4 @@
-"""JudgedContour walls: the cuts of a stretch's moves into one contour, measured exactly."""
+"""Judged walls: the cuts of a stretch's moves into one contour, measured exactly."""
 
 from __future__ import annotations
 
