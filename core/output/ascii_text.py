@@ -7,7 +7,7 @@ from collections.abc import Mapping
 from typing import Final
 from unicodedata import combining, normalize
 
-DIAMETER: Final = re.compile("\u2300 *|[\u00d8\u00f8\u2205] *(?=[-.\\d])")
+DIAMETER: Final = re.compile("\u2300 *|[\u00d8\u00f8\u2205] *(?=[-.\\d\u00bc-\u00be])")
 """A diameter sign, or the letter that is typed in its place before a number, and the blanks after it."""
 
 REPLACEMENTS: Final[Mapping[str, str]] = {
@@ -29,7 +29,7 @@ REPLACEMENTS: Final[Mapping[str, str]] = {
     "\u00b1": "+-",
     "\u00d7": "x",
     "\u00b7": ".",
-    "\u00b5": "u",
+    **dict.fromkeys("\u00b5\u03bc", "u"),
     "\u20ac": "EUR",
     "\u2044": "/",
     **dict.fromkeys("\u2010\u2011\u2012\u2013\u2014\u2212", "-"),
@@ -47,20 +47,22 @@ def in_ascii(text: str) -> str:
     """
     whole = DIAMETER.sub("DIA ", normalize("NFC", text))
     return "".join(
-        sign if sign.isascii() else _plain(sign, whole[max(at - 1, 0) : at] + whole[at + 1 : at + 2])
+        sign if sign.isascii() else _plain(sign, whole[max(at - 1, 0) : at], whole[at + 1 : at + 2])
         for at, sign in enumerate(whole)
     )
 
 
-def _plain(sign: str, neighbors: str) -> str:
+def _plain(sign: str, before: str, after: str) -> str:
     """Return what stands for a character, in capitals if it is one and stands next to one."""
     plain = REPLACEMENTS.get(sign) or REPLACEMENTS.get(sign.lower())
     if plain is None:
         bare = (part for part in normalize("NFKD", sign) if not combining(part))
-        return "".join(part if part.isascii() else REPLACEMENTS.get(part, "?") for part in bare)
+        # 1½ is 1 1/2, not 11/2
+        blank = " " if before.isdecimal() and sign.isnumeric() and not sign.isdecimal() else ""
+        return blank + "".join(part if part.isascii() else REPLACEMENTS.get(part, "?") for part in bare)
     if not sign.isalpha():
         return plain
-    in_capitals = any(neighbor.isupper() for neighbor in neighbors)
+    in_capitals = any(neighbor.isupper() for neighbor in (before, after))
     if sign.isupper():
         return plain.upper() if in_capitals else plain.capitalize()
     return plain.upper() if sign == "ß" and in_capitals else plain

@@ -21,6 +21,7 @@ def test_blank_text_says_nothing():
         ("50%", "(50 PERCENT)"),
         ("Ø 12 mm", "(DIA 12 mm)"),
         ("⌀12 ø6,5", "(DIA 12 DIA 6,5)"),
+        ("1½ END MILL 10² ⅜ Ø¾ 5 μm", "(1 1/2 END MILL 10 2 3/8 DIA 3/4 5 um)"),
         ("Gehäuse Öse für Straße", "(Gehaeuse Oese fuer Strasse)"),
         ("GEHÄUSE ÜBERMAß STRAẞE Ä", "(GEHAEUSE UEBERMASS STRASSE Ae)"),
         ("a\u0308ußere", "(aeussere)"),
