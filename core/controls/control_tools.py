@@ -5,6 +5,7 @@ from __future__ import annotations
 import re
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field, replace
+from math import nan
 from typing import Final
 
 from core.controls.program_text import lines_of
@@ -103,24 +104,31 @@ def _size_in(comment: str) -> str:
     """Return the only diameter in a comment without tool numbers, with its unit if it has one; empty without one."""
     if _OTHER_SIZES.search(comment):
         return ""
-    for pattern in _SIZES:
-        sizes = [match for match in pattern.finditer(comment) if float(match[1].split("/")[0]) > 0.0]
-        if sizes:
-            return f"{sizes[0][1].removesuffix('.')}{sizes[0][2] or ''}" if len(sizes) == 1 else ""
-    return ""
+    sizes = [match for pattern in _SIZES for match in pattern.finditer(comment) if _number(match[1]) > 0.0]
+    units = [match[2] for match in sizes if match[2]]
+    # the same size may be given twice: 10MM ENDMILL, DIA 10.
+    if len({_number(match[1]) for match in sizes}) != 1 or len({unit.upper() for unit in units}) > 1:
+        return ""
+    return f"{sizes[0][1].removesuffix('.')}{units[0] if units else ''}"
+
+
+def _number(text: str) -> float:
+    """Return the value of a number or a fraction, NaN for one over 0."""
+    numerator, _, denominator = text.partition("/")
+    return float(numerator) / (float(denominator or 1.0) or nan)
 
 
 _COMMENT: Final = re.compile(r"\([^)]*\)?|;.*")
 _TOOL: Final = re.compile(r"\bT(?:OOL)?\s*(?:[-#]\s*)?(\d{1,8})\b", re.IGNORECASE)
 _OTHER_SIZES: Final = re.compile(r"\b(?:SHANK|WEAR|OFFSET|OFS)\b", re.IGNORECASE)
-_NUMBER: Final = r"(?<![\d./,])(?<!\d[ -])(\d{1,3}/\d{1,3}|\d{0,8}\.\d{1,8}|\d{1,8}\.?)(?![\d/])"
+_NUMBER: Final = r"(?<![A-Z\d./,])(?<!\d[ -])(\d{1,3}/\d{1,3}|\d{0,8}\.\d{1,8}|\d{1,8}\.?)(?![\d/]|\.\d)"
 _UNIT: Final = r"\s?(MM\b|IN\b)?"
 _KIND: Final = r"(?:(?:FLAT|SQUARE|CARBIDE|HSS|ROUGH\w*|FINISH\w*|\d ?FL(?:UTE)?S?)\s+)*(?:END ?MILL|EM)\b"
 _SIZES: Final = tuple(
     re.compile(pattern, re.IGNORECASE)
     for pattern in (
         rf"\b(?:DIA(?:METER\b|\b\.?)\s*(?:[=:-]\s*)?|D\s*[=:]\s*){_NUMBER}{_UNIT}(?!\s*[\d/,-]\d|\s*FL)",
-        rf"{_NUMBER}{_UNIT}\s*DIA(?:METER)?\b",
+        rf"{_NUMBER}{_UNIT}\s*DIA(?:METER)?\b(?!\.?\s*[=:-])",
         # a whole number without a unit may be what is left of a fraction
         rf"(?=[\d/]{{0,8}}[./]|\d{{1,8}}\s?(?:MM|IN)\b){_NUMBER}{_UNIT}\s*{_KIND}",
     )
