@@ -12,6 +12,7 @@ from core.comp.compensated import CenterPath
 from core.finding import Finding
 from core.geometry.path import Path
 from core.geometry.piece import Side
+from core.progress import Progress, silent
 from core.tolerance import GOUGE
 from core.verify.judge import judge_prepared
 from core.verify.surface import Surface
@@ -25,15 +26,21 @@ fit, and a still smaller one gouge again."""
 
 
 def with_largest_blend(
-    findings: Sequence[Finding], paths: BlockPaths, side: Side, size: Callable[[int], float], typed: int
+    findings: Sequence[Finding],
+    paths: BlockPaths,
+    side: Side,
+    size: Callable[[int], float],
+    typed: int,
+    progress: Progress = silent,
 ) -> tuple[Finding, ...]:
     """Add to the findings on blend arcs the largest BLEND OFFSET that fits; none if no finding is about them.
 
     `size` gives the millimeters of so many steps of a form's last digit; `typed` are the steps of what is in force.
+    `progress` may raise Stopped before each pass is judged; how far the search is, is not known.
     """
     if not any(finding.code in BLEND_CODES for finding in findings):
         return tuple(findings)
-    largest = largest_blend(paths, side, size, typed)
+    largest = largest_blend(paths, side, size, typed, progress)
     if largest is None:
         return tuple(findings)
     return tuple(_with_value(each, largest) if each.code in BLEND_CODES else each for each in findings)
@@ -44,7 +51,9 @@ def _with_value(finding: Finding, largest: float) -> Finding:
     return replace(finding, text=f"{finding.text.removesuffix('.')}: {fits}.", lengths=(largest,) if largest else ())
 
 
-def largest_blend(paths: BlockPaths, side: Side, size: Callable[[int], float], typed: int) -> float | None:
+def largest_blend(
+    paths: BlockPaths, side: Side, size: Callable[[int], float], typed: int, progress: Progress = silent
+) -> float | None:
     """Return the largest BLEND OFFSET in millimeters up to `typed` steps that fits, 0 if only that does.
 
     It is judged like the posted paths, and one step more does not fit.  None if the path gouges even without blends:
@@ -53,7 +62,11 @@ def largest_blend(paths: BlockPaths, side: Side, size: Callable[[int], float], t
     surface = Surface.prepare(paths.surface, side)
 
     def fits(steps: int) -> bool:
-        return all(_cuts_only_stock(surface, *cut, size(steps)) for cut in _passes(paths))
+        for cut in _passes(paths):
+            progress(0.0)
+            if not _cuts_only_stock(surface, *cut, size(steps)):
+                return False
+        return True
 
     fails = typed + 1
     for share in range(COARSE_STEPS, -1, -1):

@@ -62,7 +62,7 @@ def derive_block(program: Program, number: int, progress: Progress = silent) -> 
         return replace(block, complete=True)
     paths = _block_paths(block, program, part(progress, SOLVED_SHARE, JUDGED_SHARE))
     progress(JUDGED_SHARE)
-    return _with_findings(block, paths, program)
+    return _with_findings(block, paths, program, part(progress, JUDGED_SHARE, 1.0))
 
 
 def with_better_paths(derived: Derived) -> Derived:
@@ -127,7 +127,7 @@ def _verdict(setup: CuttingSetup, radius: float, loops: tuple[CenterPath, ...]) 
     return judge(setup.surface, setup.side, radius, [loop.whole for loop in loops])
 
 
-def _with_findings(block: DerivedBlock, paths: BlockPaths, program: Program) -> DerivedBlock:
+def _with_findings(block: DerivedBlock, paths: BlockPaths, program: Program, progress: Progress) -> DerivedBlock:
     """Add a block's paths and their findings, and whatever else forbids posting, such as a SPEED of 0."""
     assert block.radius is not None
     closed = block.solved.closed
@@ -138,7 +138,7 @@ def _with_findings(block: DerivedBlock, paths: BlockPaths, program: Program) -> 
         back = turning_back(paths.surface, closed=closed)
         trouble = (*path_findings(paths), *size_warning(block.radius, paths.surface))
         if block.side is not None:
-            trouble = _with_largest_blend(trouble, paths, block.side, program)
+            trouble = _with_largest_blend(trouble, paths, block.side, program, progress)
             trouble += tight_arcs(paths.verdict, paths.surface, block.side, block.radius)
     if len(paths.rough) > MAX_SIDE_PASSES:
         text = f"MAX OFFSET makes more than {MAX_SIDE_PASSES} side passes. "
@@ -154,11 +154,11 @@ def _with_findings(block: DerivedBlock, paths: BlockPaths, program: Program) -> 
 
 
 def _with_largest_blend(
-    findings: tuple[Finding, ...], paths: BlockPaths, side: Side, program: Program
+    findings: tuple[Finding, ...], paths: BlockPaths, side: Side, program: Program, progress: Progress
 ) -> tuple[Finding, ...]:
     decimals, unit = decimals_shown(Kind.LENGTH, program.unit), program.unit
     typed = int(from_mm(parameter(program, "blend_offset"), unit) * 10**decimals + 1e-6)
-    return with_largest_blend(findings, paths, side, lambda steps: to_mm(steps / 10**decimals, unit), typed)
+    return with_largest_blend(findings, paths, side, lambda steps: to_mm(steps / 10**decimals, unit), typed, progress)
 
 
 def look_ahead_table(

@@ -9,7 +9,7 @@ from random import Random
 import pytest
 
 from core.finding import Severity
-from core.pipeline.derive import derive, remedy_for_gouge
+from core.pipeline.derive import BLOCKS_SHARE, JUDGED_SHARE, derive, remedy_for_gouge
 from core.pipeline.derived import DerivedBlock
 from core.pipeline.setup_sheet import sheet_text
 from core.program.model import (
@@ -22,6 +22,7 @@ from core.program.model import (
     ProgramParameters,
     Tool,
 )
+from core.progress import Stopped
 from core.units import Unit, located_sentence, to_mm
 from tests.core.pipeline.parts import Points, block
 
@@ -91,6 +92,18 @@ def test_the_largest_blend_of_a_pocket_is_the_one_by_hand(points: Points, overla
     if value:
         assert is_clean(typed(program, value))
     assert not is_clean(typed(program, value + 0.001))
+
+
+def test_the_search_for_a_blend_that_fits_can_be_stopped() -> None:
+    judged = list[float]()
+
+    def stop_in_the_search(share: float) -> None:
+        judged.append(share)
+        if judged.count(BLOCKS_SHARE * JUDGED_SHARE) == 3:
+            raise Stopped
+
+    with pytest.raises(Stopped):
+        derive(lines_from(L_POCKET, 10, parameters_of(60.0)), stop_in_the_search)
 
 
 def test_a_hole_names_the_value_and_typing_it_works_but_one_more_digit_does_not() -> None:
