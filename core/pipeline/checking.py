@@ -61,7 +61,7 @@ class State(StrEnum):
 
 @dataclass(frozen=True, eq=False, slots=True)
 class CheckRequest:
-    """What is request of every program: a control's full name or `all`, the tools, and whether the shop's rules apply.
+    """What is asked of every program: a control's full name or `all`, the tools, and whether the shop's rules apply.
 
     `unit` applies if a program names none; None is the one that a control starts in.  `library` finds the programs
     that a control calls from its memory.  With `names_options`, a stop for lack of a tool's size names the option of
@@ -172,7 +172,7 @@ def answer(text: bytes, request: CheckRequest) -> Answer:
 
 
 def _complete(row: Answer, done: ControlRun, text: bytes, request: CheckRequest) -> Answer:
-    """Return the answer with the largest tool that fits, and with the option that gives a tool its size if request."""
+    """Return the answer with the largest tool that fits and, if asked for, the option that gives a tool its size."""
     row = with_largest_tool(row, done, text, request)
     return _with_remedy(row, tool_option) if request.names_options else row
 
