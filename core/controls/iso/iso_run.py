@@ -28,7 +28,7 @@ LINES_BETWEEN: Final = 200
 
 
 _CR_ALONE: Final = re.compile(rb"\r(?!\n)")
-_G_WORD: Final = re.compile(r"(?<![A-Z])G[ \t]*0*(\d{1,4})(?!\d|\.0*[1-9])")
+_G_WORD: Final = re.compile(r"(?<![A-Z_<])G[ \t]*0*(\d{1,4})(?!\d|\.0*[1-9])")
 
 
 def run_iso(

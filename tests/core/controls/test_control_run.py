@@ -65,6 +65,7 @@ def test_an_alarm_stops_at_its_own_line_or_another() -> None:
         ("linuxcnc", "T1 M6 G 20\nM2\n", Unit.IN),
         ("linuxcnc", "T1 M6\nG0 X1\nM2\n", Unit.MM),
         ("linuxcnc", "T1 M6\nG20.1 G200\nG0 X1\nM2\n", Unit.MM),
+        ("linuxcnc", "T1 M6\n#<g20>=1 #<no_g20>=2\nG21\nM2\n", Unit.MM),
         # with a move before it the unit in force at the move counts
         ("linuxcnc", "G0 X1\nT1 M6\nG20\nM2\n", Unit.MM),
         ("rosettacnc:nist", "?\nG20\nG0 X1\nM2\n", Unit.IN),
