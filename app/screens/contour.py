@@ -676,8 +676,10 @@ class ContourScreen(BlockActions, FormScreen):
             self._insert(session.place.segment + 1, kind())
             return
         without = edit.delete_segment(session.program, session.place)
-        outcome = without if isinstance(without, Refused) else edit.insert_segment(without, session.place, kind())
-        form = table.form_of(kind())
+        # an empty segment can still have FEED: typed, or taken from the block before
+        new = replace(kind(), feed=segment.feed)
+        outcome = without if isinstance(without, Refused) else edit.insert_segment(without, session.place, new)
+        form = table.form_of(new)
         if self.host.apply(outcome, f"{form} {session.place.segment}, block {session.place.block}"):
             self.go(session.place.segment, table.FIELDS_OF_FORM[form][0].name)
 

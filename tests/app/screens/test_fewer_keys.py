@@ -9,7 +9,7 @@ import pytest
 from core.pipeline.derive import derive
 from core.pipeline.post import post_center_path
 from core.program.edit import FormPlace, new_block
-from core.program.model import BlendSegment, ChamferSegment, Coolant, LineSegment, Number, Program, Tool
+from core.program.model import ArcSegment, BlendSegment, ChamferSegment, Coolant, LineSegment, Number, Program, Tool
 from core.program.solve.solved import Origin, Solved
 from core.units import Unit
 from tests.app.widget_pilot import Operator, operator
@@ -136,6 +136,10 @@ async def test_a_new_block_takes_the_values_and_the_last_feed_of_the_previous_bl
     await user.press("ctrl+end", "pagedown")
     assert user.session.place == FormPlace(2, 1)
     assert user.session.block.segments[0].feed == Number(12.0)
+    await user.press("a")
+    (arc,) = user.session.block.segments
+    assert isinstance(arc, ArcSegment), "A on an empty LINE makes an arc of it"
+    assert arc.feed == Number(12.0), "the feed stays when a letter changes the segment"
 
 
 async def test_a_comma_is_a_decimal_point(user: Operator):
