@@ -255,7 +255,10 @@ class ContourScreen(BlockActions, FormScreen):
             return
         verdict.case = Case(block, displayed.lookahead_table, unit)
         self.entries = block_findings(block, displayed.lookahead_table, unit)
-        self.query_one(FindingsList).entries = self.entries
+        findings = self.query_one(FindingsList)
+        findings.entries = self.entries
+        if self.entries and before is not None and before.block.number != block.number:
+            findings.highlighted = 0
         self._show_lists(displayed)
         if block.complete or before is not None:
             # skipped in the first paint, which must not load the numeric libraries

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
+
 from textual.widget import Widget
 from textual.widgets import OptionList
 
@@ -10,8 +12,10 @@ from app.screens.draw import DrawScreen
 from app.screens.home import HomeScreen
 from app.screens.post import PostScreen
 from app.widgets.drawing import Drawing
+from app.widgets.findings_list import FindingsList
+from core.program.edit import FormPlace
 from core.program.model import Number
-from tests.app.widget_pilot import Operator, operator
+from tests.app.widget_pilot import Operator, operator, session_on
 
 
 async def run(user: Operator, action: str) -> None:
@@ -87,6 +91,21 @@ async def test_f10_on_post_leads_to_what_must_be_corrected():
         assert isinstance(user.screen, PostScreen)
         await user.press("f10", "enter")
         assert isinstance(user.screen, ContourScreen)
+
+
+async def test_the_findings_of_another_block_begin_with_the_first_one():
+    plate = session_on("plate-mm").program
+    blank = replace(plate.blocks[0], z_bottom=None, plunge_feed=None, speed=None)
+    async with operator() as user:
+        await user.begin(replace(plate, blocks=(blank, blank)))
+        findings = user.screen.query_one(FindingsList)
+        await user.press("f10", "down", "down", "enter")
+        assert findings.highlighted == 2
+        user.app.move(FormPlace(2), "segment")
+        await user.settle()
+        assert findings.highlighted == 0
+        await user.press("f9", "f10", "enter")
+        assert user.at == "z_bottom"
 
 
 async def test_a_list_without_findings_says_so_and_how_it_closes():
