@@ -118,7 +118,8 @@ def _header(
         yield f"BLOCK {job.block} MILL CONTOUR CUTTER COMP. {job.comp} {depth}"
         yield from job.notes
     for note in (*_for_the_operator(jobs, cuts, unit, control), *notes):
-        where = "" if note.segment is None else f"SEGMENT {note.segment:g}: "
+        block = "" if note.block is None or len(jobs) == 1 else f"BLOCK {note.block} "
+        where = "" if note.segment is None else f"{block}SEGMENT {note.segment:g}: "
         text = sentence(note, unit)
         code = "" if text.startswith(note.code) else f"{note.code} "
         yield f"NOTE {code}{where}{text}"

@@ -56,13 +56,14 @@ class CenterMove(NamedTuple):
 class WrittenLine(NamedTuple):
     """A line of a program being written, the segment it cuts, and whether it only leads to or from that.
 
-    `travel` is the move that the line must make without compensation.
+    `travel` is the move that the line must make without compensation; `block` is the number of its MILL CONTOUR block.
     """
 
     text: str
     segment: float | None = None
     lead: bool = False
     travel: CenterMove | None = None
+    block: int | None = None
 
 
 @dataclass(frozen=True, eq=False, slots=True, kw_only=True)

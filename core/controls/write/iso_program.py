@@ -81,7 +81,8 @@ def write_iso(
     before: ContourPass | None = None
     for run, contour_pass in zip(cuts, passes, strict=True):
         lines += writer.tool(contour_pass, before)
-        lines += writer.plain(run) if isinstance(run, UncompensatedPass) else writer.cut(run)
+        moves = writer.plain(run) if isinstance(run, UncompensatedPass) else writer.cut(run)
+        lines += (line._replace(block=contour_pass.block) for line in moves)
         before = contour_pass
     return (*lines, *map(WrittenLine, ("M5", "M30", *style.tail)))
 

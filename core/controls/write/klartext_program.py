@@ -76,7 +76,8 @@ class _Writer:
         before: ContourPass | None = None
         for run, contour_pass in zip(runs, passes, strict=True):
             yield from self.tool(contour_pass, before)
-            yield from self.cut(run) if isinstance(run, PassWithLeads) else self.plain(run)
+            moves = self.cut(run) if isinstance(run, PassWithLeads) else self.plain(run)
+            yield from (line._replace(block=contour_pass.block) for line in moves)
             before = contour_pass
         yield WrittenLine("M30")
         yield WrittenLine(f"END {frame}")

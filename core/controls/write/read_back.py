@@ -7,7 +7,7 @@ it differs; everything else is refused with the place and the reason.
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from math import hypot, tau
 from typing import Final
 
@@ -73,6 +73,13 @@ class Intended:
         """Return the segment that a line of the program cuts."""
         return self.lines[int(line) - 1].segment if line and line <= len(self.lines) else None
 
+    def located(self, finding: Finding, line: int | None) -> Finding:
+        """Return a finding with the block and the segment that a line of the program cuts."""
+        if not line or line > len(self.lines):
+            return finding
+        written = self.lines[line - 1]
+        return replace(finding, segment=written.segment, block=written.block)
+
 
 ComparedPaths = dict[tuple[int, bytes], Finding | None]
 """What comparing a path gave, by the block's path and the points of the control's."""
@@ -102,7 +109,8 @@ def read_back(intended: Intended, compared: ComparedPaths | None = None) -> tupl
         if not _level(made, stretch, cut, intended):
             return (not_written("A compensated run does not stay at its depth."),)
         if key not in compared:
-            compared[key] = compare_path(moves.path(), cut, intended)
+            answer = compare_path(moves.path(), cut, intended)
+            compared[key] = None if answer is None else replace(answer, block=cut.block)
         answers[key] = compared[key]
     findings = [answer for answer in answers.values() if answer is not None]
     errors = dict.fromkeys(answer for answer in findings if answer.severity is Severity.ERROR)
@@ -154,14 +162,14 @@ def _stopped(made: ControlRun, intended: Intended) -> tuple[Finding, ...]:
 
 def _alarm(finding: Finding, intended: Intended) -> Finding:
     text = f"{intended.control_name} stops at line {finding.line} of the program, rule {finding.code}: {finding.text}"
-    return not_written(text, intended.segment(finding.line), lengths=finding.lengths)
+    return intended.located(not_written(text, lengths=finding.lengths), finding.line)
 
 
 def _warnings(made: ControlRun, intended: Intended) -> tuple[Finding, ...]:
     """Return the control's warnings, one for each rule."""
     first = {finding.code: finding for finding in reversed(made.findings) if finding.severity is Severity.WARNING}
     return tuple(
-        Finding(code, Severity.WARNING, finding.text, intended.segment(finding.line), lengths=finding.lengths)
+        intended.located(Finding(code, Severity.WARNING, finding.text, lengths=finding.lengths), finding.line)
         for code, finding in first.items()
     )
 

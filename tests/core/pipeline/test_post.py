@@ -49,6 +49,14 @@ EXAMPLES = sorted((Path(__file__).parents[3] / "app" / "examples").glob("*.toml"
 BLENDS = ProgramParameters(blend_offset=Number(0.125), blend_overlap=Number(0.125))
 SQUARE = replace(block(MID_SIDE_SQUARE, CutterComp.RIGHT), peck_depth=Number(0.1))
 
+ROUND = replace(
+    SQUARE,
+    x_start=Number(3.0),
+    y_start=Number(1.0),
+    segments=(ArcSegment(Direction.CCW, Number(3.0), Number(1.0), x_center=Number(1.0), y_center=Number(1.0)),),
+)
+"""A disk of radius 2: it has no corner that a control could take differently."""
+
 
 @cache
 def derived_program(typed: Program) -> Derived:
@@ -151,7 +159,7 @@ def test_a_refusal_names_the_rule_the_line_and_the_segment() -> None:
     inside = derived(block(MID_SIDE_SQUARE, CutterComp.LEFT))
     result = post_control_program(inside, name="PART", control="rosettacnc:nist")
     assert isinstance(result, Refusal)
-    assert result.text.startswith("Segment 2: rosettacnc:nist stops at line")
+    assert result.text.startswith("Block 1, segment 2: rosettacnc:nist stops at line")
     assert "rule C6" in result.text
 
 
@@ -162,6 +170,20 @@ def test_a_refusal_without_a_line_names_the_block() -> None:
     assert isinstance(result, Refusal)
     assert [finding.block for finding in result.findings] == [1, 2]
     assert result.text.startswith("Block 1: There is no room for the straight move into the cut")
+
+
+@pytest.mark.parametrize("control", ["nine-series:a", "fanuc:a"])
+def test_a_difference_names_its_block_if_there_are_several(control: str) -> None:
+    result = posted(derived(ROUND, SQUARE), control)
+    assert [(note.code, note.block) for note in result.notes] == [("DIFFERS", 2)]
+    assert f"(NOTE DIFFERS BLOCK 2 SEGMENT {result.notes[0].segment:g}: " in result.text
+
+
+def test_an_alarm_of_the_control_names_its_block() -> None:
+    inside = block(MID_SIDE_SQUARE, CutterComp.LEFT)
+    result = post_control_program(derived(ROUND, inside), name="PART", control="rosettacnc:nist")
+    assert isinstance(result, Refusal)
+    assert result.text.startswith("Block 2, segment 2: rosettacnc:nist stops at line")
 
 
 def test_the_header_notes_where_the_control_differs() -> None:
