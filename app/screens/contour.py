@@ -417,7 +417,8 @@ class ContourScreen(BlockActions, FormScreen):
 
     @on(OptionList.OptionHighlighted, "#findings")
     def _finding_stepped(self, event: OptionList.OptionHighlighted) -> None:
-        if not event.option_list.has_focus:
+        """Move the loupe to the highlighted finding; skip events for rows the cursor has already left."""
+        if not event.option_list.has_focus or event.option_index != event.option_list.highlighted:
             return
         entry = self.entries[event.option_index]
         placed = self.placed

@@ -164,7 +164,8 @@ class DrawScreen(BaseScreen):
 
     @on(OptionList.OptionHighlighted)
     def _stepped(self, event: OptionList.OptionHighlighted) -> None:
-        if event.option_list.has_focus and event.option_index != self.at:
+        late = event.option_index != event.option_list.highlighted
+        if event.option_list.has_focus and not late and event.option_index != self.at:
             self._take(event.option_index)
 
     @on(OptionList.OptionSelected)
