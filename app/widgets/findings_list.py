@@ -8,6 +8,7 @@ from typing import ClassVar
 
 from textual.binding import Binding, BindingType
 from textual.content import Content
+from textual.geometry import Size
 from textual.reactive import reactive
 from textual.widgets.option_list import Option
 
@@ -60,23 +61,32 @@ class FindingsList(OptionRows):
 
     def __init__(self, *, id: str | None = None, classes: str | None = None) -> None:
         super().__init__(id=id, classes=classes)
-        self._width = 0
+        self._room, self._width = Size(), 0
         self.border_title, self.border_subtitle = "FINDINGS", "n next  p before"
 
     def on_resize(self) -> None:
-        """Wrap the sentences again at a new width."""
-        if self._width != self.scrollable_content_region.width:
+        """Wrap the sentences again at a new size."""
+        if self._room != self.content_region.size:
             self._show()
 
     def _show(self) -> None:
         """Show the findings; the highlight keeps its index, or goes to the last one if there are fewer."""
-        now, at, self._width = self.entries, self.highlighted, self.scrollable_content_region.width
+        now, at, self._room = self.entries, self.highlighted, self.content_region.size
         self.border_title = f"FINDINGS  {len(now)}" if now else "FINDINGS  none"
+        self._width = self._room.width
+        lines = self._wrapped_entries()
+        if sum(line.plain.count("\n") + 1 for line in lines) > self._room.height:
+            # the scroll bar takes a column
+            self._width = max(0, self._width - self.styles.scrollbar_size_vertical)
+            lines = self._wrapped_entries()
         self.clear_options()
-        self.add_options([Option(self._line(number, entry), id=str(number)) for number, entry in enumerate(now)])
+        self.add_options([Option(line, id=str(number)) for number, line in enumerate(lines)])
         self.highlighted = None if not now else min(at or 0, len(now) - 1)
 
     watch_entries = watch_characters = _show
+
+    def _wrapped_entries(self) -> list[Content]:
+        return [self._line(number, entry) for number, entry in enumerate(self.entries)]
 
     def _line(self, number: int, entry: Entry) -> Content:
         """Return the title and the segment, then what the sentence says besides its title."""

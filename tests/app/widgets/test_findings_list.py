@@ -6,6 +6,7 @@ import pytest
 
 from app.screens.contour import ContourScreen
 from app.screens.draw import DrawScreen
+from app.session.block_findings import Entry, EntryKind
 from app.widgets.findings_list import FindingsList
 from tests.app.widget_pilot import operator
 
@@ -15,6 +16,18 @@ async def test_the_second_line_of_a_finding_continues_its_title():
         findings = user.screen.query_one(FindingsList)
         first = str(findings.get_option_at_index(0).prompt).split("\n")
         assert first == ["▲ 1 UNCUT 0.3624 thick  segment 8-10", "    1.2296 long, segments 8-10 at X 0.2500 Y 3.5000."]
+
+
+async def test_the_sentences_leave_room_for_a_scroll_bar_when_it_comes():
+    async with operator() as user:
+        await user.press("f10")
+        findings = user.screen.query_one(FindingsList)
+        width, height = findings.content_region.size
+        sentence = f"{'x' * (width - 7)} y."
+        entry = Entry(EntryKind.NOTE, sentence, "", sentence)
+        for count, wrapped in ((1, f"i 1 {'x' * (width - 7)} y."), (height + 1, f"i 1 {'x' * (width - 7)}\n    y.")):
+            findings.entries = (entry,) * count
+            assert str(findings.get_option_at_index(0).prompt) == wrapped
 
 
 @pytest.mark.parametrize("key", ["", "f7"], ids=["form", "DRAW"])
