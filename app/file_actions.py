@@ -340,6 +340,8 @@ class FileActions(DerivationActions):
     def action_save(self) -> None:
         """Save the NC text in front, or else the program, under its name; ask for a name if it has none."""
         if not self.take_typed():
+            # the prompt says what is wrong with the text
+            self.notify("NOT SAVED: correct the field, then Ctrl+S.", timeout=4)
             return
         document = self.document if self.proof is None else self.proof.document
         if document.file.path is None:

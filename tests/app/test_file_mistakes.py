@@ -138,6 +138,8 @@ async def test_a_number_typed_without_enter_is_saved_and_asked_about(folder):
         assert (str(file.content), str(state.content)) == ("part", "saved")
         await user.press("escape", "'9x", "ctrl+s")
         assert user.prompt.startswith("9x cannot be read."), "an unreadable number is not saved"
+        (said,) = [each.message for each in user.app._notifications]
+        assert said == "NOT SAVED: correct the field, then Ctrl+S."
         assert load(folder / "part.toml").blocks[0].tool == Number(1.0)
         await user.press("escape", "'7", "ctrl+s")
         assert load(folder / "part.toml").blocks[0].tool == Number(7.0)
