@@ -228,7 +228,10 @@ def _remedies(setup: CuttingSetup, table: Table, progress: Progress) -> tuple[Fi
     value, start = lookahead_without_blends(setup, progress), start_mid_side(setup, progress)
     remedies = _start_sentence(start)
     if value is not None:
-        remedies = (_remedy("BLENDLESS", f"W{_NO_BLENDS[1:]} look-ahead {value} is clean."), *remedies)
+        remedies = (
+            _remedy("BLENDLESS", f"Without blend moves (BLEND OFFSET 0) look-ahead {value} is clean."),
+            *remedies,
+        )
     bare = None if remedies else without_blends(setup)
     if bare is not None:
         remedies = _start_sentence(start_mid_side(bare, progress, MAX_STARTS_WITHOUT_BLENDS), blends=False)

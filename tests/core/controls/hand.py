@@ -18,7 +18,7 @@ from tests.tool_tables import end_mills
 DATA = Path(__file__).parents[2] / "data"
 
 
-def ran(text: str | bytes, control: str, **diameters: float) -> ControlRun:
+def run_of(text: str | bytes, control: str, **diameters: float) -> ControlRun:
     """The run of a program with tools named t1, t2 ... of these diameters in program units."""
     table = end_mills({int(name[1:]): value for name, value in diameters.items()})
     program = text.encode() if isinstance(text, str) else text
@@ -27,7 +27,7 @@ def ran(text: str | bytes, control: str, **diameters: float) -> ControlRun:
     return run
 
 
-def ran_up_to(text: str, blocks: int, **diameters: float) -> ControlRun:
+def run_until_given_up(text: str, blocks: int, **diameters: float) -> ControlRun:
     """The run of a program on LinuxCNC, given up when this many blocks have been repeated."""
     table = end_mills({int(name[1:]): value for name, value in diameters.items()})
     dialect = replace(linuxcnc.DIALECT, max_repeated_blocks=blocks)
@@ -36,7 +36,7 @@ def ran_up_to(text: str, blocks: int, **diameters: float) -> ControlRun:
 
 def sample(name: str, control: str, **diameters: float) -> ControlRun:
     """The run of a sample program."""
-    return ran((DATA / "nc" / name).read_bytes(), control, **diameters)
+    return run_of((DATA / "nc" / name).read_bytes(), control, **diameters)
 
 
 def findings_of(run: ControlRun, code: str) -> list[Finding]:

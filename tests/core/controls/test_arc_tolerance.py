@@ -11,7 +11,7 @@ from core.controls.iso.arcs import center_by_radius
 from core.controls.registry import arc_tolerance
 from core.finding import Finding, Severity
 from core.units import Unit
-from tests.core.controls.hand import findings_of, ran
+from tests.core.controls.hand import findings_of, run_of
 from tests.core.controls.rs274 import witness
 from tests.rs274 import WITNESS
 
@@ -38,7 +38,7 @@ def program(control: str, unit: Unit, radius: float, difference: float) -> str:
 @pytest.mark.parametrize("control", CONTROLS)
 def test_radii_may_differ_up_to_the_limit_of_the_control(control: str, unit: Unit, radius: float) -> None:
     limit = arc_tolerance(control).largest_difference(radius * SCALE[unit], unit) / SCALE[unit]
-    within, beyond = (ran(program(control, unit, radius, share * limit), control) for share in (0.99, 1.01))
+    within, beyond = (run_of(program(control, unit, radius, share * limit), control) for share in (0.99, 1.01))
     assert within.stopped_at is None
     assert not findings_of(within, "ARC")
     (alarm,) = findings_of(beyond, "ARC")
@@ -71,7 +71,7 @@ def test_the_alarm_suggests_nothing_if_the_center_is_wrong_in_both_modes(control
 @pytest.mark.parametrize("control", ["fanuc:a", "linuxcnc", "threeblock"])
 def test_the_alarm_of_a_full_circle_suggests_no_other_center(control: str) -> None:
     metric = "G71" if control == "threeblock" else "G21"
-    run = ran(
+    run = run_of(
         f"{metric} G17 G90 F100.\nG1 X10. Y5.\nG3 X10. Y5. {'I10. J5.' if control == 'threeblock' else 'I0. J0.'}\n",
         control,
     )
@@ -82,7 +82,7 @@ def test_the_alarm_of_a_full_circle_suggests_no_other_center(control: str) -> No
 def quarter_turn(control: str, start: str, center: str) -> Finding:
     """The alarm of a quarter circle from `start` to ten more in X and Y, with this center."""
     metric, (x, y) = "G71" if control == "threeblock" else "G21", (float(word[1:]) + 10 for word in start.split())
-    run = ran(f"{metric} G17 G90 F100.\nG1 {start}\nG3 X{x} Y{y} {center}\nM2\n", control)
+    run = run_of(f"{metric} G17 G90 F100.\nG1 {start}\nG3 X{x} Y{y} {center}\nM2\n", control)
     assert run.stopped_at == 3
     return run.findings[-1]
 

@@ -11,7 +11,7 @@ import pytest
 
 from core.finding import Severity
 from core.units import Unit
-from tests.core.controls.hand import DATA, findings_of, ran
+from tests.core.controls.hand import DATA, findings_of, run_of
 from tests.core.controls.rs274 import witness
 from tests.rs274 import WITNESS
 
@@ -108,7 +108,7 @@ def program(control: str, rule: str) -> bytes:
 @pytest.mark.parametrize(("control", "rule"), CASES)
 def test_the_finding_names_the_place_where_a_rule_is_broken(control: str, rule: str) -> None:
     tools = {"t1": 6.0, "t2": 3.0} if control == "rosettacnc" else TOOLS
-    run = ran(program(control, rule), control, **tools)
+    run = run_of(program(control, rule), control, **tools)
     found = findings_of(run, rule)[0]
     assert (found.line, found.column, found.severity) == RULES[control][rule]
     assert (run.stopped_at is not None) == (found.severity is ERROR and rule not in GOES_ON)

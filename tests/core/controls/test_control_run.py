@@ -6,7 +6,7 @@ import pytest
 
 from core.controls.control_run import MAX_ALIKE, MAX_FINDINGS_OF_A_RULE, AlarmError, Log, Spot
 from core.units import Unit
-from tests.core.controls.hand import ran
+from tests.core.controls.hand import run_of
 
 
 def test_a_rule_is_reported_once_for_a_line() -> None:
@@ -76,5 +76,5 @@ def test_an_alarm_stops_at_its_own_line_or_another() -> None:
     ],
 )
 def test_a_program_that_stops_before_it_names_its_unit_has_the_unit_named_below(control: str, text: str, unit: Unit):
-    run = ran(text, control)
+    run = run_of(text, control)
     assert (run.stopped_at, run.unit) == (2 if text.startswith("G0") else 1, unit)

@@ -12,7 +12,7 @@ from core.controls.compensation.element_queue import NO_FIT
 from core.controls.control_run import ControlRun
 from core.controls.judging.judged_runs import judge_run
 from core.controls.moves import Moves, Plane
-from tests.core.controls.hand import ran
+from tests.core.controls.hand import run_of
 from tests.core.controls.programs import RADIUS, program, turned_to_zx
 
 CONTROLS = [
@@ -35,7 +35,7 @@ def text(seed: int) -> str:
 
 @cache
 def run(source: str, control: str, diameter: float = 2 * RADIUS) -> ControlRun:
-    return ran(source, control, t1=diameter)
+    return run_of(source, control, t1=diameter)
 
 
 def mirrored(source: str) -> str:

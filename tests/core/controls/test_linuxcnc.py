@@ -17,7 +17,7 @@ from core.units import Unit, from_mm
 from tests.core.controls.compare_rs274 import outcome, programs, sample_outcome
 from tests.core.controls.compensated_codes import CODES, EXPLAINED, FRAMES, PROGRAMS
 from tests.core.controls.distribution import COMPENSATED, LIBRARY, SAMPLES, called, sample
-from tests.core.controls.hand import findings_of, ran, ran_up_to, same, shape
+from tests.core.controls.hand import findings_of, run_of, run_until_given_up, same, shape
 from tests.core.controls.macro_programs import whole
 from tests.core.controls.programs import MODAL, stopped
 from tests.core.controls.rs274 import difference, printed, run_witness, witness
@@ -60,7 +60,7 @@ def test_d0_selects_the_tool_in_the_spindle(head: str, tmp_path: Path) -> None:
     text = f"G20 F9\n{head}G0 X-1 Y-1\nG1 G41 D0 X0 Y-.6\nY2\nX2\nY-1\nG40 X4\nM2\n"
     assert outcome(text, tmp_path, DIAMETERS, Unit.IN) == ("same moves", "")
     if head:
-        run = ran(text, "linuxcnc", t1=0.5, t2=0.25)
+        run = run_of(text, "linuxcnc", t1=0.5, t2=0.25)
         assert not findings_of(run, "RADIUS0")
         assert run.stretches[0].radius == 25.4 * (0.125 if "T2 M6" in head else 0.25)
 
@@ -96,7 +96,7 @@ def test_the_orientation_of_a_lathe_tool_shifts_its_moves(orientation: int, tmp_
 
 def test_l_next_to_g41_1_is_the_orientation_of_the_lathe_tool() -> None:
     """Radius 1, orientation 3: the controlled point is one radius behind the nose's center in Z, and above it in X."""
-    run = ran("G21 G18 F9\nG41.1 D2 L3\nG1 Z5\nZ9\nG40\nM2\n", "linuxcnc")
+    run = run_of("G21 G18 F9\nG41.1 D2 L3\nG1 Z5\nZ9\nG40\nM2\n", "linuxcnc")
     assert [(move.point[0], move.point[2]) for move in run.moves if move.line] == [(2.0, 4.0), (2.0, 8.0)]
 
 
@@ -104,7 +104,7 @@ def test_l_next_to_g41_1_is_the_orientation_of_the_lathe_tool() -> None:
 @pytest.mark.parametrize("name", MODAL)
 def test_modal_programs_match_the_interpreter(name: str, tmp_path: Path) -> None:
     theirs = witness(MODAL[name], tmp_path, DIAMETERS, Unit.IN)
-    ours = ran(MODAL[name], "linuxcnc", t1=0.5, t2=0.25)
+    ours = run_of(MODAL[name], "linuxcnc", t1=0.5, t2=0.25)
     assert not theirs.refusal
     assert ours.stopped_at is None
     assert not difference(printed(ours), theirs.moves)
@@ -160,29 +160,29 @@ WORK_OFFSETS = ("G54", "G55", "G56", "G57", "G58", "G59", "G59.1", "G59.2", "G59
     ],
 )
 def test_a_code_refused_under_compensation_names_its_rule_and_g40(code: str, rule: str) -> None:
-    run = ran(FRAMES["between compensated moves"].format(code), "linuxcnc", t1=0.5)
+    run = run_of(FRAMES["between compensated moves"].format(code), "linuxcnc", t1=0.5)
     (finding,) = findings_of(run, rule)
     assert (finding.line, run.stopped_at) == (7, 7)
     assert "G40" in finding.text
 
 
 def test_a_shift_that_compensation_ignores_is_a_warning() -> None:
-    assert findings_of(ran(FRAMES["between compensated moves"].format("G92.1"), "linuxcnc", t1=0.5), "N-OFFSETS")
+    assert findings_of(run_of(FRAMES["between compensated moves"].format("G92.1"), "linuxcnc", t1=0.5), "N-OFFSETS")
 
 
 def test_m61_sets_the_tool_whose_radius_counts_without_d() -> None:
     """The stand-alone interpreter has no spindle and keeps the previous tool; the manual says that M61 sets it."""
-    run = ran("G20 F9\nT1 M6\nM61 Q2\nG41\nG1 X1\nX3\nG40\nX4\nM2\n", "linuxcnc", t1=0.5, t2=0.25)
+    run = run_of("G20 F9\nT1 M6\nM61 Q2\nG41\nG1 X1\nX3\nG40\nX4\nM2\n", "linuxcnc", t1=0.5, t2=0.25)
     assert same(shape(run)[:1], [("line", 1, 0.125)])
 
 
 @pytest.mark.parametrize(("line", "rule"), [("M61", "N-WORDALONE"), ("M61 Q-1", "N-WORDALONE"), ("M61 Q9", "TOOL")])
 def test_m61_without_a_tool_of_the_table_is_refused(line: str, rule: str) -> None:
-    assert [finding.line for finding in findings_of(ran(f"G20 F9\n{line}\nM2\n", "linuxcnc", t1=0.5), rule)] == [2]
+    assert [finding.line for finding in findings_of(run_of(f"G20 F9\n{line}\nM2\n", "linuxcnc", t1=0.5), rule)] == [2]
 
 
 def test_an_m_code_of_the_machine_is_reported() -> None:
-    assert findings_of(ran("G20 F9\nM101\nG1 X1\nM2\n", "linuxcnc"), "M")
+    assert findings_of(run_of("G20 F9\nM101\nG1 X1\nM2\n", "linuxcnc"), "M")
 
 
 REFUSED = {
@@ -216,7 +216,7 @@ REFUSED = {
 @pytest.mark.parametrize("name", REFUSED)
 def test_a_program_that_the_interpreter_refuses_is_refused_or_reported(name: str, tmp_path: Path) -> None:
     assert witness(REFUSED[name], tmp_path, DIAMETERS, Unit.IN).refusal
-    ours = ran(REFUSED[name], "linuxcnc", t1=0.5)
+    ours = run_of(REFUSED[name], "linuxcnc", t1=0.5)
     assert ours.stopped_at is not None or findings_of(ours, "END")
 
 
@@ -254,39 +254,39 @@ def test_the_radius_at_the_end_of_an_arc_must_be_larger_than_the_tool(start: flo
 
 
 def test_entry_corner_and_exit_match_a_hand_calculation() -> None:
-    run = ran("G20 F9\nG41 D1\nG1 X1 Y0\nX2 Y0\nX2 Y1\nG40\nX5 Y5\nM2\n", "linuxcnc", t1=0.5)
+    run = run_of("G20 F9\nG41 D1\nG1 X1 Y0\nX2 Y0\nX2 Y1\nG40\nX5 Y5\nM2\n", "linuxcnc", t1=0.5)
     wanted = [("line", 1, 0.25), ("line", 1.75, 0.25), ("line", 1.75, 1), ("line", 5, 5)]
     assert same(shape(run), wanted)
 
 
 def test_the_unit_may_change_under_compensation() -> None:
-    run = ran("G20 F9\nG41 D1\nG1 X2\nX4\nG21\nX152.4\nG40\nG1 Y25.4\nM2\n", "linuxcnc", t1=0.5)
+    run = run_of("G20 F9\nG41 D1\nG1 X2\nX4\nG21\nX152.4\nG40\nG1 Y25.4\nM2\n", "linuxcnc", t1=0.5)
     assert same(shape(run), [("line", 2, 0.25), ("line", 4, 0.25), ("line", 6, 0.25), ("line", 6, 1)])
 
 
 def test_recursive_subprograms_are_stopped() -> None:
-    run = ran("G20 F9\nM98 P1\nM2\nO1\nG1 X1\nM98 P2\nM99\nO2\nM98 P1\nM99\n", "linuxcnc")
+    run = run_of("G20 F9\nM98 P1\nM2\nO1\nG1 X1\nM98 P2\nM99\nO2\nM98 P1\nM99\n", "linuxcnc")
     assert run.stopped_at == findings_of(run, "SUBPROGRAM")[0].line == 9
 
 
 def test_endless_repeats_are_stopped() -> None:
     text = "G20 F9\nM98 P1 L9999999\nM2\nO1\nS1\nM99\n"
-    assert findings_of(ran_up_to(text, 20_000), "LIMIT")
+    assert findings_of(run_until_given_up(text, 20_000), "LIMIT")
 
 
 @pytest.mark.timeout(10)
 def test_thousands_of_subprograms_before_the_program_are_passed_quickly() -> None:
     subprograms = "".join(f"o{number} sub\no{number} endsub\n" for number in range(7000))
-    assert ran(f"{subprograms}G21 F9\nG1 X1\nM2\n", "linuxcnc").stopped_at is None
+    assert run_of(f"{subprograms}G21 F9\nG1 X1\nM2\n", "linuxcnc").stopped_at is None
 
 
 def test_a_feed_before_g20_is_in_the_unit_in_force_before() -> None:
-    run = ran("G20 F20\nG1 X1\nF20\nG1 X2\nM2\n", "linuxcnc")
+    run = run_of("G20 F20\nG1 X1\nF20\nG1 X2\nM2\n", "linuxcnc")
     assert [from_mm(move.feed, Unit.IN) for move in list(run.moves)[1:]] == pytest.approx([20 / 25.4, 20])
 
 
 def test_a_stretch_knows_its_programmed_contour() -> None:
-    run = ran("G20 F9\nG0 X0 Y-1\nG42 D1\nG1 Y0\nX4\nY4\nG40\nX9\nM2\n", "linuxcnc", t1=0.5)
+    run = run_of("G20 F9\nG0 X0 Y-1\nG42 D1\nG1 Y0\nX4\nY4\nG40\nX9\nM2\n", "linuxcnc", t1=0.5)
     (stretch,) = run.stretches
     assert (stretch.plane, stretch.entry, stretch.exit) == (Plane.XY, 1, 0)
     points = [(0, -1, 0), (0, 0, 0), (4, 0, 0), (4, 4, 0)]
@@ -332,12 +332,12 @@ def test_a_byte_order_mark_stops_the_run(start: bytes) -> None:
 
 def test_the_length_of_a_latin_1_comment_is_counted_in_bytes() -> None:
     text = "(" + "\N{LATIN SMALL LETTER A WITH DIAERESIS}" * 200 + ")\nG21 G0 X1\nM2\n"
-    assert ran(text.encode("latin-1"), "linuxcnc").stopped_at is None
+    assert run_of(text.encode("latin-1"), "linuxcnc").stopped_at is None
 
 
 def test_the_error_of_a_misplaced_n_has_its_column() -> None:
     (error,) = [
-        finding for finding in ran("G21 G0\nX1 N5\nM2\n", "linuxcnc").findings if finding.severity is Severity.ERROR
+        finding for finding in run_of("G21 G0\nX1 N5\nM2\n", "linuxcnc").findings if finding.severity is Severity.ERROR
     ]
     assert (error.line, error.column) == (2, 4)
 
@@ -350,11 +350,11 @@ def test_a_move_as_short_as_a_rounding_error_is_a_move(tmp_path: Path) -> None:
 
 
 def test_line_ends_of_cr_only_are_refused() -> None:
-    assert ran(b"G21 G0 X1\rY2\nM2\n", "linuxcnc").stopped_at == 1
-    assert ran(b"G21 G0 X1\r\nY2\r\nM2\r\n", "linuxcnc").stopped_at is None
+    assert run_of(b"G21 G0 X1\rY2\nM2\n", "linuxcnc").stopped_at == 1
+    assert run_of(b"G21 G0 X1\r\nY2\r\nM2\r\n", "linuxcnc").stopped_at is None
 
 
 @pytest.mark.parametrize("word", ["@50 ^180", "@[20+30] ^180", "^#1"])
 def test_polar_coordinates_are_not_followed(word: str) -> None:
-    (finding,) = findings_of(ran(f"G21 G90\nG1 {word} F300\nM2\n", "linuxcnc"), "BEYOND")
+    (finding,) = findings_of(run_of(f"G21 G90\nG1 {word} F300\nM2\n", "linuxcnc"), "BEYOND")
     assert (finding.line, finding.column) == (2, 4)

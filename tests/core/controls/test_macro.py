@@ -14,7 +14,7 @@ from core.controls.makers import linuxcnc
 from core.finding import Severity
 from core.units import Unit
 from tests.core.controls.compare_rs274 import outcome
-from tests.core.controls.hand import findings_of, lines_and_ends, ran, ran_up_to, same, shape
+from tests.core.controls.hand import findings_of, lines_and_ends, run_of, run_until_given_up, same, shape
 from tests.core.controls.macro_programs import REFUSED, SAME, generated, whole
 from tests.rs274 import WITNESS
 
@@ -40,7 +40,7 @@ def test_bad_programs_are_refused_by_the_interpreter_too(name: str, tmp_path: Pa
 @pytest.mark.parametrize("name", REFUSED)
 def test_a_refusal_names_line_and_column(name: str) -> None:
     body, line, column = REFUSED[name]
-    run = ran(whole(body), "linuxcnc", t1=0.5)
+    run = run_of(whole(body), "linuxcnc", t1=0.5)
     errors = [finding for finding in run.findings if finding.severity is Severity.ERROR]
     assert [(finding.line, finding.column) for finding in errors] == [(line, column)]
     assert run.stopped_at == line
@@ -55,7 +55,7 @@ def test_generated_contours_match_the_interpreter(tmp_path: Path) -> None:
 
 
 def test_an_unset_parameter_is_0_and_reported() -> None:
-    run = ran("G20 F9\nG1 X[#100 + 1]\nM2\n", "linuxcnc")
+    run = run_of("G20 F9\nG1 X[#100 + 1]\nM2\n", "linuxcnc")
     assert lines_and_ends(run) == [(1.0, 0.0)]
     assert [(finding.severity, finding.line, finding.column) for finding in findings_of(run, "PARAMETER")] == [
         (Severity.WARNING, 2, 6)
@@ -63,34 +63,34 @@ def test_an_unset_parameter_is_0_and_reported() -> None:
 
 
 def test_an_argument_that_is_not_given_is_not_reported() -> None:
-    run = ran("G20 F9\no1 sub\nG1 X1 Y#2\no1 endsub\no1 call [1]\nM2\n", "linuxcnc")
+    run = run_of("G20 F9\no1 sub\nG1 X1 Y#2\no1 endsub\no1 call [1]\nM2\n", "linuxcnc")
     assert not findings_of(run, "PARAMETER")
 
 
 def test_moves_of_a_subprogram_have_the_lines_of_the_subprogram() -> None:
-    run = ran("G20 F9\no1 sub\nG1 X#1\no1 endsub\no1 call [1]\no1 call [2]\nM2\n", "linuxcnc")
+    run = run_of("G20 F9\no1 sub\nG1 X#1\no1 endsub\no1 call [1]\no1 call [2]\nM2\n", "linuxcnc")
     assert lines_and_ends(run, 3) == [(1.0, 0.0), (2.0, 0.0)]
 
 
 def test_a_duplicate_word_with_an_expression_has_its_column() -> None:
-    run = ran("G20 F9\n#1=2\nG1 X[#1 + 1] X#1\nM2\n", "linuxcnc")
+    run = run_of("G20 F9\n#1=2\nG1 X[#1 + 1] X#1\nM2\n", "linuxcnc")
     assert [(finding.line, finding.column) for finding in findings_of(run, "TWICE")] == [(3, 14)]
 
 
 def test_parameters_of_the_control_are_not_guessed() -> None:
     for value in ("#5161", "#5221", "#<_rpm>", "#<_hal[pin]>"):
-        run = ran(f"G20 F9\nG1 X{value}\nM2\n", "linuxcnc")
+        run = run_of(f"G20 F9\nG1 X{value}\nM2\n", "linuxcnc")
         assert [(finding.line, finding.column) for finding in findings_of(run, "BEYOND")] == [(2, 5)], value
-    assert findings_of(ran("G20 F9\n#5221=1\nM2\n", "linuxcnc"), "BEYOND")
+    assert findings_of(run_of("G20 F9\n#5221=1\nM2\n", "linuxcnc"), "BEYOND")
 
 
 def test_an_endless_loop_is_stopped() -> None:
-    assert findings_of(ran("G20 F9\no1 while [1]\no1 endwhile\nM2\n", "linuxcnc"), "LIMIT")
+    assert findings_of(run_of("G20 F9\no1 while [1]\no1 endwhile\nM2\n", "linuxcnc"), "LIMIT")
 
 
 @pytest.mark.parametrize("piece", ["[", "#", "-", "SIN[", "[1+", "#[", "1+", "##1"])
 def test_deep_nesting_is_refused(piece: str) -> None:
-    run = ran(f"G20 F9\nG1 X{piece * 20000}\nM2\n", "linuxcnc")
+    run = run_of(f"G20 F9\nG1 X{piece * 20000}\nM2\n", "linuxcnc")
     assert run.stopped_at == 2
 
 
@@ -98,19 +98,19 @@ def test_deep_nesting_is_refused(piece: str) -> None:
     "text", ["#99999[", f"G1 X[{'9' * 400}]", f"#{'9' * 400}=1", f"o{'9' * 5000} sub", "G1 X#<\x1b[2J>"]
 )
 def test_absurd_sizes_and_characters_are_refused(text: str) -> None:
-    run = ran(f"G20 F9\n{text}\nM2\n", "linuxcnc")
+    run = run_of(f"G20 F9\n{text}\nM2\n", "linuxcnc")
     assert run.stopped_at == 2
     assert all(finding.text.isprintable() for finding in run.findings)
 
 
 def test_rosettacnc_evaluates_variables() -> None:
     text = "G21 F100\n#500=10 #1=2\nG1 X[#500 * #1] Y-#1\nG1 X[#500 & 3]\nM30\n"
-    run = ran(text, "rosettacnc")
+    run = run_of(text, "rosettacnc")
     assert same(shape(run), [("line", 20, -2), ("line", 2, -2)])
 
 
 def test_rosettacnc_shares_variables_with_m98_subprograms() -> None:
-    run = ran("G21 F100\n#1=3\nM98 P7\nG1 X#1\nM30\nO7\n#1=5\nM99\n", "rosettacnc")
+    run = run_of("G21 F100\n#1=3\nM98 P7\nG1 X#1\nM30\nO7\n#1=5\nM99\n", "rosettacnc")
     assert lines_and_ends(run) == [(5.0, 0.0)]
 
 
@@ -119,14 +119,14 @@ def test_rosettacnc_shares_variables_with_m98_subprograms() -> None:
     [("#0", "PARAMETER"), ("#500", "PARAMETER"), ("#100", "PARAMETER"), ("#5001", "BEYOND"), ("#6000", "BEYOND")],
 )
 def test_rosettacnc_stops_at_unset_or_system_variables(word: str, code: str) -> None:
-    run = ran(f"G21 F100\nG1 X{word}\n", "rosettacnc")
+    run = run_of(f"G21 F100\nG1 X{word}\n", "rosettacnc")
     assert [(finding.line, finding.column) for finding in findings_of(run, code)] == [(2, 5)]
     assert run.stopped_at == 2
 
 
 @pytest.mark.parametrize("number", [0, 5000, 6001])
 def test_rosettacnc_refuses_to_set_variables_out_of_range(number: int) -> None:
-    assert findings_of(ran(f"G21 F100\n#{number}=1\n", "rosettacnc"), "PARAMETER")
+    assert findings_of(run_of(f"G21 F100\n#{number}=1\n", "rosettacnc"), "PARAMETER")
 
 
 @pytest.mark.parametrize(
@@ -134,14 +134,14 @@ def test_rosettacnc_refuses_to_set_variables_out_of_range(number: int) -> None:
 )
 @pytest.mark.parametrize("control", ["rosettacnc", "nine-series", "threeblock"])
 def test_branches_in_the_language_of_other_controls_stop_the_run(control: str, line: str) -> None:
-    run = ran(f"G20 G1 F9 X1.\n{line}\nX2.\n", control)
+    run = run_of(f"G20 G1 F9 X1.\n{line}\nX2.\n", control)
     assert [finding.line for finding in findings_of(run, "BRANCH")] == [2]
     assert run.stopped_at == 2
 
 
 @pytest.mark.parametrize("control", ["nine-series", "threeblock"])
 def test_controls_with_undocumented_expressions_stop_at_one(control: str) -> None:
-    run = ran("G20 G1 F9 X1.\nX[1+1]\n", control)
+    run = run_of("G20 G1 F9 X1.\nX[1+1]\n", control)
     assert [(finding.line, finding.column) for finding in findings_of(run, "MACRO")] == [(2, 1)]
 
 
@@ -174,7 +174,7 @@ def looped(line: str, kind: str) -> str:
 @pytest.mark.parametrize("kind", ["while", "M98"])
 def test_loops_with_expressions_are_stopped_sooner(kind: str) -> None:
     plain, long = "G1 X1 Y2", "G1 X[1+2*sin[30]/2.5] Y[2+3*[3+4]-5] F[100+2*2]"
-    slow, fast = (ran_up_to(looped(line, kind), 5_000) for line in (long, plain))
+    slow, fast = (run_until_given_up(looped(line, kind), 5_000) for line in (long, plain))
     assert findings_of(slow, "LIMIT")
     assert findings_of(fast, "LIMIT")
     assert len(fast.moves) > 4_500
@@ -185,17 +185,17 @@ def test_loops_with_expressions_are_stopped_sooner(kind: str) -> None:
 
 def test_blocks_that_run_once_are_no_repeats() -> None:
     lines = "\n".join(f"G1 X[{index}+1]\nG1 X{index}" for index in range(200))
-    assert not findings_of(ran_up_to(f"G20 F9\n{lines}\nM98 P1\nM2\nO1\n{lines}\nM99\n", 10), "LIMIT")
+    assert not findings_of(run_until_given_up(f"G20 F9\n{lines}\nM98 P1\nM2\nO1\n{lines}\nM99\n", 10), "LIMIT")
 
 
 def test_lines_with_comments_and_codes_may_run_often() -> None:
     for line in ("G90 G1 X1.0000 Y2.0000 F100. (a note)", "N10 G1 X1.0000 Y2.0000 F1000 M8"):
         body = "\n".join([line] * 200)
-        assert not findings_of(ran_up_to(f"G20 F9\nM98 P1 L25\nM2\nO1\n{body}\nM99\n", 20_000), "LIMIT")
+        assert not findings_of(run_until_given_up(f"G20 F9\nM98 P1 L25\nM2\nO1\n{body}\nM99\n", 20_000), "LIMIT")
 
 
 def test_the_message_of_a_stopped_loop_says_what_to_do() -> None:
-    run = ran("G20 F9\no1 while [1]\no1 endwhile\nM2\n", "linuxcnc")
+    run = run_of("G20 F9\no1 while [1]\no1 endwhile\nM2\n", "linuxcnc")
     assert "does not judge the run. Fix the loop or repeat fewer times." in findings_of(run, "LIMIT")[0].text
 
 
@@ -203,6 +203,6 @@ def test_a_long_subprogram_may_run_often() -> None:
     """A tenth of the blocks that the control may repeat, and of those that the program does."""
     assert linuxcnc.DIALECT.max_repeated_blocks >= 400_000
     body = "\n".join(f"G1 X{index % 7} Y{index}" for index in range(100))
-    run = ran_up_to(f"G20 F9\nM98 P1 L201\nM2\nO1\n{body}\nM99\n", 40_000)
+    run = run_until_given_up(f"G20 F9\nM98 P1 L201\nM2\nO1\n{body}\nM99\n", 40_000)
     assert run.stopped_at is None
     assert len(run.moves) == 20_101

@@ -16,7 +16,7 @@ import pytest
 
 from core.controls.registry import names
 from tests.core.controls.cycle_programs import drilled, timed
-from tests.core.controls.hand import DATA, ran
+from tests.core.controls.hand import DATA, run_of
 from tests.core.controls.klartext.test_mutations import mutated
 from tests.core.controls.macro_programs import SAME, generated, whole
 
@@ -35,7 +35,7 @@ def run_broken(sample: Path, count: int, controls: list[str]) -> tuple[float, in
     for index in range(count):
         program, control = mutated(text, random), controls[index % len(controls)]
         before = process_time()
-        done = ran(program, control, t1=0.5, t3=10.0)
+        done = run_of(program, control, t1=0.5, t3=10.0)
         most = max(most, process_time() - before)
         cutting += bool(done.stretches)
         assert np.isfinite(done.moves.points).all(), (control, program)

@@ -7,14 +7,14 @@ from math import sqrt, tan
 import pytest
 
 from core.units import Unit, from_mm
-from tests.core.controls.hand import findings_of, ran, same, sample, shape
+from tests.core.controls.hand import findings_of, run_of, same, sample, shape
 
 ROOT = sqrt(0.5)
 
 
 def path(body: str, control: str = "nine-series:a", diameter: float = 0.5) -> list[tuple[object, ...]]:
     """The shape of a program that starts at 0, 0 in inches."""
-    return shape(ran(f"G20 G17 G1 F10\n{body}", control, t1=diameter, t2=0.2))
+    return shape(run_of(f"G20 G17 G1 F10\n{body}", control, t1=diameter, t2=0.2))
 
 
 def test_one_two_and_three_blocks_enter_alike() -> None:
@@ -30,7 +30,7 @@ def test_d_may_be_in_the_motion_block_after_g41() -> None:
 
 @pytest.mark.parametrize("body", ["G41 X1 Y1;\nD1;", "G41 X1 Y1; D1;", "G41;\nX1 Y1;\nS9\nD1;", "G41 X1 Y1\nZ0\nD1"])
 def test_d_on_its_own_line_after_the_entry_applies_to_the_entry(body: str) -> None:
-    run = ran(f"G20 G17 G1 F10\n{body}\nX3\n", "nine-series:a", t1=0.5)
+    run = run_of(f"G20 G17 G1 F10\n{body}\nX3\n", "nine-series:a", t1=0.5)
     assert shape(run)[0][1:] == (1, 1.25)
     assert same(shape(run)[-1:], [("line", 3, 1.25)])
     assert not findings_of(run, "RADIUS0")
@@ -41,7 +41,7 @@ def test_d_on_its_own_line_after_the_entry_applies_to_the_entry(body: str) -> No
 def test_an_entry_without_d_is_reported(rest: str) -> None:
     assert [
         finding.line
-        for finding in findings_of(ran(f"G20 G1 F10\nG41 X1 Y1\n{rest}\n", "nine-series", t1=0.5), "RADIUS0")
+        for finding in findings_of(run_of(f"G20 G1 F10\nG41 X1 Y1\n{rest}\n", "nine-series", t1=0.5), "RADIUS0")
     ] == [2]
 
 
@@ -140,13 +140,13 @@ def test_a_vector_along_the_path_shifts_against_itself() -> None:
 
 
 def test_a_side_change_runs_square_to_both_moves() -> None:
-    run = ran("G20 G1 F10\nG41 D1 X0 Y1\nX4 Y1\nG42 X4 Y4\nG40 X0 Y9", "nine-series", t1=0.5)
+    run = run_of("G20 G1 F10\nG41 D1 X0 Y1\nX4 Y1\nG42 X4 Y4\nG40 X0 Y9", "nine-series", t1=0.5)
     assert same(shape(run)[1:4], [("line", 4, 1.25), ("line", 4.25, 1), ("line", 4.25, 4)])
     assert "cutcomp assumes" in findings_of(run, "CHANGE")[0].text
 
 
 def test_the_side_may_change_in_an_arc_block() -> None:
-    run = ran("G20 G1 F10\nG41 D1 X0 Y1\nX4 Y1\nG42 G3 X5 Y2 I0 J1\nG40 G1 X0 Y9", "nine-series", t1=0.5)
+    run = run_of("G20 G1 F10\nG41 D1 X0 Y1\nX4 Y1\nG42 G3 X5 Y2 I0 J1\nG40 G1 X0 Y9", "nine-series", t1=0.5)
     assert run.stopped_at is None
 
 
@@ -161,47 +161,47 @@ def test_d0_continues_with_radius_0() -> None:
 
 
 def test_inside_arcs_keep_the_feed_of_the_surface() -> None:
-    run = ran("G20 G1 F10\nG41 D1 X0 Y1\nX4 Y1\nG3 X5 Y2 I0 J1\nG1 Y4\nG40 X0", "nine-series", t1=0.5)
+    run = run_of("G20 G1 F10\nG41 D1 X0 Y1\nX4 Y1\nG3 X5 Y2 I0 J1\nG1 Y4\nG40 X0", "nine-series", t1=0.5)
     (arc,) = [move for move in run.moves if move.turn]
     assert from_mm(arc.feed, run.unit) == pytest.approx(7.5)
 
 
 def test_too_many_blocks_without_motion_end_the_move_square() -> None:
     quiet = "S100\n" * 11
-    run = ran(f"G20 G1 F10\nG41 D1 X0 Y1\nX4 Y1\n{quiet}X4 Y4\nX8 Y4\nG40 X0 Y9", "nine-series", t1=0.5)
+    run = run_of(f"G20 G1 F10\nG41 D1 X0 Y1\nX4 Y1\n{quiet}X4 Y4\nX8 Y4\nG40 X0 Y9", "nine-series", t1=0.5)
     assert same(shape(run)[1:3], [("line", 4, 1.25), ("line", 4, 4.25)])
-    few = ran("G20 G1 F10\nG41 D1 X0 Y1\nX4 Y1\nS100\nX4 Y4\nX8 Y4\nG40 X0 Y9", "nine-series", t1=0.5)
+    few = run_of("G20 G1 F10\nG41 D1 X0 Y1\nX4 Y1\nS100\nX4 Y4\nX8 Y4\nG40 X0 Y9", "nine-series", t1=0.5)
     assert same(shape(few)[1:2], [("line", 3.75, 1.25)])
 
 
 def test_a_change_of_origin_exits_and_enters_again() -> None:
-    run = ran("G20 G1 F10\nG41 D1 X0 Y1\nX4 Y1\nX4 Y4\nG55\nX8 Y4\nX8 Y9\nG40 X0 Y9", "nine-series", t1=0.5)
+    run = run_of("G20 G1 F10\nG41 D1 X0 Y1\nX4 Y1\nX4 Y4\nG55\nX8 Y4\nX8 Y9\nG40 X0 Y9", "nine-series", t1=0.5)
     wanted = [("line", 4, 1.25), ("line", 4, 4), ("line", 7.75, 4), ("line", 7.75, 9), ("line", 0, 9)]
     assert same(shape(run)[1:], wanted)
 
 
 def test_m800_allows_a_backwards_move() -> None:
     body = "G41 D1 X1 Y1\nX5 Y1\nX5 Y1.1\nX1 Y1.1\nG40 X0 Y0\n"
-    assert ran(f"G20 G1 F10\n{body}", "nine-series", t1=0.5).stopped_at == 4
-    assert ran(f"G20 G1 F10\nM800\n{body}", "nine-series", t1=0.5).stopped_at is None
-    assert ran(f"G20 G1 F10\nM800\nM801\n{body}", "nine-series", t1=0.5).stopped_at == 6
+    assert run_of(f"G20 G1 F10\n{body}", "nine-series", t1=0.5).stopped_at == 4
+    assert run_of(f"G20 G1 F10\nM800\n{body}", "nine-series", t1=0.5).stopped_at is None
+    assert run_of(f"G20 G1 F10\nM800\nM801\n{body}", "nine-series", t1=0.5).stopped_at == 6
 
 
 def test_corner_words_are_unsupported() -> None:
     """Only the lathe manual has `,C` and `,R`; it does not say how they combine with compensation."""
-    run = ran("G21 F100\nG1 X10. Y0 ,R2.\nX10. Y20.\nM2\n", "nine-series:a", t1=10.0)
+    run = run_of("G21 F100\nG1 X10. Y0 ,R2.\nX10. Y20.\nM2\n", "nine-series:a", t1=10.0)
     assert [(finding.code, finding.line, finding.column) for finding in run.findings][-1] == ("BEYOND", 2, 12)
 
 
 def test_rotation_mirror_image_scaling_and_polar_codes_are_unsupported() -> None:
     for code in ("G68", "G51.1 X0", "G14.1", "G16"):
-        (finding,) = findings_of(ran(f"G21 G0 X0 Y0\n{code}\nX1\nM2\n", "allen-bradley:a"), "BEYOND")
+        (finding,) = findings_of(run_of(f"G21 G0 X0 Y0\n{code}\nX1\nM2\n", "allen-bradley:a"), "BEYOND")
         assert finding.line == 2
-    off = ran("G21 G14 G15 G50.1 G69 G0 X0 Y0\nX1\nM2\n", "allen-bradley:a")
+    off = run_of("G21 G14 G15 G50.1 G69 G0 X0 Y0\nX1\nM2\n", "allen-bradley:a")
     assert (off.stopped_at, off.findings) == (None, ())
 
 
 @pytest.mark.parametrize("code", ["G52 X0", "G92 X1", "G54", "G55", "G56", "G57", "G58", "G59"])
 def test_a_new_origin_interrupts_compensation(code: str) -> None:
-    run = ran(f"G20 G17 G1 F10\nG41 D1 X1 Y1\nX3\n{code}\nX5\nG40 X6\nM2\n", "nine-series:a", t1=0.5)
+    run = run_of(f"G20 G17 G1 F10\nG41 D1 X1 Y1\nX3\n{code}\nX5\nG40 X6\nM2\n", "nine-series:a", t1=0.5)
     assert [finding.line for finding in findings_of(run, "R7")] == [4]

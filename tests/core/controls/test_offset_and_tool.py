@@ -6,7 +6,7 @@ import pytest
 
 from core.finding import Severity
 from core.units import Unit, sentence
-from tests.core.controls.hand import findings_of, ran
+from tests.core.controls.hand import findings_of, run_of
 
 PASS = "G0 X-20 Y-20\n{side} {offset} G1 X0 Y-10 F200\nY30\nX40\nY0\nX-10\nG40 X-20 Y-20\n"
 CONTROLS = ("fanuc:a", "haas:a", "nine-series:a", "linuxcnc", "rosettacnc:normal")
@@ -18,7 +18,7 @@ def program(tool: int, offset: str, *, side: str = "G41") -> str:
 
 @pytest.mark.parametrize("control", CONTROLS)
 def test_the_offset_of_a_smaller_tool_cuts_too_deep(control: str) -> None:
-    run = ran(program(2, "D1"), control, t1=10.0, t2=12.0)
+    run = run_of(program(2, "D1"), control, t1=10.0, t2=12.0)
     (said,) = findings_of(run, "OFFSET")
     assert (said.severity, said.line) == (Severity.WARNING, 4)
     assert sentence(said, Unit.MM) == (
@@ -29,33 +29,33 @@ def test_the_offset_of_a_smaller_tool_cuts_too_deep(control: str) -> None:
 
 @pytest.mark.parametrize("control", CONTROLS)
 def test_the_offset_of_a_larger_tool_leaves_stock(control: str) -> None:
-    (said,) = findings_of(ran(program(2, "D1"), control, t1=10.0, t2=9.0), "OFFSET")
+    (said,) = findings_of(run_of(program(2, "D1"), control, t1=10.0, t2=9.0), "OFFSET")
     assert said.severity is Severity.INFO
     assert sentence(said, Unit.MM) == "D1 has the radius 5.000, tool 2 has 4.500: the cutter leaves 0.500 of stock."
 
 
 @pytest.mark.parametrize("control", CONTROLS)
 def test_a_tools_own_offset_and_a_tool_that_is_not_known_are_no_matter(control: str) -> None:
-    assert not findings_of(ran(program(2, "D2"), control, t1=10.0, t2=12.0), "OFFSET")
+    assert not findings_of(run_of(program(2, "D2"), control, t1=10.0, t2=12.0), "OFFSET")
     if control not in ("linuxcnc", "rosettacnc:normal"):
-        assert not findings_of(ran(program(3, "D1"), control, t1=10.0), "OFFSET")
+        assert not findings_of(run_of(program(3, "D1"), control, t1=10.0), "OFFSET")
 
 
 @pytest.mark.parametrize("control", ["linuxcnc", "rosettacnc:normal"])
 def test_a_diameter_in_the_program_is_compared_too(control: str) -> None:
-    (said,) = findings_of(ran(program(1, "D8", side="G41.1"), control, t1=10.0), "OFFSET")
+    (said,) = findings_of(run_of(program(1, "D8", side="G41.1"), control, t1=10.0), "OFFSET")
     assert (said.severity, said.lengths) == (Severity.WARNING, (4.0, 5.0))
 
 
 def test_an_offset_that_the_program_sets_or_changes_is_compared_too() -> None:
     wear = program(5, "D5").replace("T5 M6", "G10 L12 P5 R0.05\nT5 M6")
-    (said,) = findings_of(ran(wear, "fanuc:a", t5=10.0), "OFFSET")
+    (said,) = findings_of(run_of(wear, "fanuc:a", t5=10.0), "OFFSET")
     assert (said.severity, said.value) == (Severity.WARNING, 4.95)
     changed = program(1, "D1").replace("X40\n", "D2 X40\n")
-    (said,) = findings_of(ran(changed, "fanuc:a", t1=10.0, t2=9.0), "OFFSET")
+    (said,) = findings_of(run_of(changed, "fanuc:a", t1=10.0, t2=9.0), "OFFSET")
     assert (said.line, said.value) == (6, 0.5)
 
 
 def test_a_difference_is_reported_once_for_an_offset_and_a_tool() -> None:
     twice = program(2, "D1").replace("M30\n", f"{PASS.format(side='G41', offset='D1')}M30\n")
-    assert len(findings_of(ran(twice, "fanuc:a", t1=10.0, t2=12.0), "OFFSET")) == 1
+    assert len(findings_of(run_of(twice, "fanuc:a", t1=10.0, t2=12.0), "OFFSET")) == 1

@@ -8,7 +8,7 @@ import pytest
 
 from core.controls.control_run import ControlRun
 from core.controls.judging.judged_runs import judge_run
-from tests.core.controls.hand import findings_of, lines_and_ends, ran, same, sample, shape
+from tests.core.controls.hand import findings_of, lines_and_ends, run_of, same, sample, shape
 
 AFTER_ENTRY = [
     ("ccw", 30, 3, 30, 10),
@@ -32,7 +32,7 @@ def test_nist_refuses_the_inside_corner_of_the_lead_in() -> None:
 
 
 def test_nist_enters_along_the_tangent_to_the_tool_at_its_start() -> None:
-    run = ran("G21 F100\nG0 X0 Y0\nG41 D1\nG1 X10\nX20\n", "rosettacnc:nist", t1=6)
+    run = run_of("G21 F100\nG0 X0 Y0\nG41 D1\nG1 X10\nX20\n", "rosettacnc:nist", t1=6)
     angle = radians(180) - acos(3 / 10)
     wanted = ("line", 10 + 3 * cos(angle), 3 * sin(angle))
     assert same(shape(run)[1:2], [wanted])
@@ -40,8 +40,8 @@ def test_nist_enters_along_the_tangent_to_the_tool_at_its_start() -> None:
 
 
 def test_nist_enters_on_the_right_as_the_mirror_image() -> None:
-    left = shape(ran("G21 F100\nG0 X0 Y0\nG41 D1\nG1 X10\nX20 Y-5\n", "rosettacnc:nist", t1=6))
-    right = shape(ran("G21 F100\nG0 X0 Y0\nG42 D1\nG1 X10\nX20 Y5\n", "rosettacnc:nist", t1=6))
+    left = shape(run_of("G21 F100\nG0 X0 Y0\nG41 D1\nG1 X10\nX20 Y-5\n", "rosettacnc:nist", t1=6))
+    right = shape(run_of("G21 F100\nG0 X0 Y0\nG42 D1\nG1 X10\nX20 Y5\n", "rosettacnc:nist", t1=6))
     mirrored = [
         ("ccw" if move[0] == "cw" else move[0], *((-1) ** index * float(str(v)) for index, v in enumerate(move[1:])))
         for move in left
@@ -97,29 +97,29 @@ def test_the_other_entries_refuse_the_window() -> None:
 
 
 def test_a_dynamic_radius_is_subtracted_from_that_of_the_table() -> None:
-    run = ran("G21 F100\nG41 D1 I1\nG1 X10\nX20 Y-5\n", "rosettacnc:easy", t1=6)
+    run = run_of("G21 F100\nG41 D1 I1\nG1 X10\nX20 Y-5\n", "rosettacnc:easy", t1=6)
     assert run.stretches[0].radius == pytest.approx(2)
 
 
 def test_g42_1_takes_a_diameter() -> None:
-    run = ran("G21 F100\nG42.1 D4\nG1 X10\nX20\n", "rosettacnc:easy")
+    run = run_of("G21 F100\nG42.1 D4\nG1 X10\nX20\n", "rosettacnc:easy")
     assert same(shape(run), [("line", 10, -2), ("line", 20, -2)])
 
 
 def test_a_negative_radius_changes_the_side_and_is_reported() -> None:
-    run = ran("G21 F100\nG41 D1 I5\nG1 X10\nX20\n", "rosettacnc:easy", t1=6)
+    run = run_of("G21 F100\nG41 D1 I5\nG1 X10\nX20\n", "rosettacnc:easy", t1=6)
     assert same(shape(run), [("line", 10, -2), ("line", 20, -2)])
     assert findings_of(run, "NEGATIVE")
 
 
 def test_lower_case_and_comments_of_both_kinds_are_read() -> None:
-    run = ran("g21 (millimeters) f100 ; feed\n\tg1x10y-.5 ; there\n\n", "rosettacnc")
+    run = run_of("g21 (millimeters) f100 ; feed\n\tg1x10y-.5 ; there\n\n", "rosettacnc")
     assert same(shape(run), [("line", 10, -0.5)])
 
 
 @pytest.mark.parametrize("text", ["T1 M6", "M6 T1"])
 def test_the_loaded_tool_gives_the_radius_without_d(text: str) -> None:
-    run = ran(f"G21 F100\n{text}\nG41\nG1 X10\nX20\n", "rosettacnc:easy", t1=6)
+    run = run_of(f"G21 F100\n{text}\nG41\nG1 X10\nX20\n", "rosettacnc:easy", t1=6)
     assert run.stretches[0].radius == pytest.approx(3)
 
 
@@ -133,11 +133,11 @@ def test_the_loaded_tool_gives_the_radius_without_d(text: str) -> None:
 )
 def test_planes_origins_and_machine_positions_are_refused_under_compensation(entry: str, code: str) -> None:
     text = "G21 G17 G90\nT1 M6\nG0 X-20 Y0\nF100\nG41 D1\nG1 X10\nX20\n{}X40\nG40\nG0 X80\nM2\n"
-    assert ran(text.format("G17\n"), f"rosettacnc:{entry}", t1=6.0).stopped_at is None
-    assert ran(text.format(f"{code}\n"), f"rosettacnc:{entry}", t1=6.0).stopped_at == 8
+    assert run_of(text.format("G17\n"), f"rosettacnc:{entry}", t1=6.0).stopped_at is None
+    assert run_of(text.format(f"{code}\n"), f"rosettacnc:{entry}", t1=6.0).stopped_at == 8
 
 
 def test_a_wear_in_i_without_a_tool_compensates_without_a_warning() -> None:
-    run = ran("G21 F100\nG0 X0 Y0\nG41 I-3\nG1 X10\nX20\n", "rosettacnc:nist")
+    run = run_of("G21 F100\nG0 X0 Y0\nG41 I-3\nG1 X10\nX20\n", "rosettacnc:nist")
     assert [stretch.radius for stretch in run.stretches] == [3.0]
     assert not findings_of(run, "RADIUS0")

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import pytest
 
-from tests.core.controls.hand import lines_and_ends, ran
+from tests.core.controls.hand import lines_and_ends, run_of
 
 FANUC = {
     "#[0-5]=1.": "PS0115 2:1 The number of a variable cannot be negative.",
@@ -175,7 +175,7 @@ ROWS = [
 @pytest.mark.parametrize(("control", "blocks", "words"), ROWS)
 def test_a_short_program_has_its_finding(control: str, blocks: str, words: str) -> None:
     unit = "G71" if control == "threeblock" else "G21"
-    run = ran(f"{unit} F9.\n{blocks}\nM30\n", control, t1=5.0)
+    run = run_of(f"{unit} F9.\n{blocks}\nM30\n", control, t1=5.0)
     found = [f"{finding.code} {finding.line}:{finding.column} {finding.text}" for finding in run.findings]
     assert any(text.startswith(words) for text in found), found
 
@@ -185,12 +185,12 @@ def test_a_short_program_has_its_finding(control: str, blocks: str, words: str) 
 def test_lines_and_arcs_without_a_feed_are_reported(move: str, control: str, stops: bool) -> None:
     """Only some controls stop; under G93, where each move needs its own F, all do."""
     for mode, words in (("", "There is no feed;"), ("G95\n", "There is no feed;"), ("G93\n", "Under G93 every move")):
-        run = ran(f"G21\n{mode}{move}\nM30\n", control)
+        run = run_of(f"G21\n{mode}{move}\nM30\n", control)
         (finding,) = [finding for finding in run.findings if finding.text.startswith(words)]
         line = 3 if mode else 2
         assert (finding.line, run.stopped_at) == (line, line if stops or "G93" in mode else None), mode
     for feed in ("F9.", "G93 F9."):
-        run = ran(f"G21\n{move} {feed}\nM30\n", control)
+        run = run_of(f"G21\n{move} {feed}\nM30\n", control)
         assert (run.stopped_at, run.findings) == (None, ()), feed
 
 
@@ -239,7 +239,7 @@ FANUC_VALUES = {
 
 @pytest.mark.parametrize("blocks", FANUC_VALUES)
 def test_a_short_fanuc_program_ends_at(blocks: str) -> None:
-    run = ran(f"G21 F9.\nG1\n{blocks}\nM30\n", "fanuc:a", t1=5.0)
+    run = run_of(f"G21 F9.\nG1\n{blocks}\nM30\n", "fanuc:a", t1=5.0)
     ends = lines_and_ends(run) or [(0.0, 0.0)]
     assert (run.stopped_at, ends[-1]) == (None, (FANUC_VALUES[blocks], 0.0))
 
@@ -249,7 +249,7 @@ def test_each_letter_of_g65_sets_its_variable() -> None:
     letters += ["H11", "M13", *(f"{letter}{number}" for number, letter in enumerate("QRSTUVWXYZ", 17))]
     words = " ".join(f"{each[0]}{each[1:]}." for each in letters)
     moves = "\n".join(f"X#{each[1:]}" for each in letters)
-    run = ran(f"G21 F9.\nG65 P2 {words} I27. J28. K29.\nM30\nO2\nG1\n{moves}\nM99\n", "fanuc:a")
+    run = run_of(f"G21 F9.\nG65 P2 {words} I27. J28. K29.\nM30\nO2\nG1\n{moves}\nM99\n", "fanuc:a")
     # the second I, J and K are #7 to #9
     again = {"D7": 27.0, "E8": 28.0, "F9": 29.0}
     wanted = [again.get(each, float(each[1:])) for each in letters]
@@ -278,7 +278,7 @@ OTHER_ENDS = {
 
 @pytest.mark.parametrize(("control", "blocks"), OTHER_ENDS)
 def test_a_short_program_ends_at(control: str, blocks: str) -> None:
-    run = ran(f"G21 F9.\n{blocks}\nM30\n", control, t1=5.0)
+    run = run_of(f"G21 F9.\n{blocks}\nM30\n", control, t1=5.0)
     assert (run.stopped_at, lines_and_ends(run)[-1]) == (None, OTHER_ENDS[control, blocks])
 
 
@@ -306,7 +306,7 @@ def test_a_short_program_ends_at(control: str, blocks: str) -> None:
     ],
 )
 def test_a_word_that_a_code_of_its_block_uses_is_not_reported(block: str) -> None:
-    run = ran(f"G21 F9.\nG55\n{block}\nM30\n", "fanuc:a", t1=5.0)
+    run = run_of(f"G21 F9.\nG55\n{block}\nM30\n", "fanuc:a", t1=5.0)
     assert {finding.code for finding in run.findings} <= {"OFFSET", "HOME", "DWELL"}, run.findings
     assert not any("G54.1 P2" in finding.text for finding in run.findings)
 
@@ -348,7 +348,7 @@ UNDER_COMPENSATION = {
 def test_a_block_under_compensation_has_its_rule(control: str, rule: str, block: str) -> None:
     first = "G71 F9. T1" if control == "threeblock" else "G21 F9. T1 M6"
     side = "G41 D1" if control != "threeblock" else "G41"
-    run = ran(f"{first}\n{side} G1 X9.\nX20.\n{block}\nY-30.\n", control, t1=5.0)
+    run = run_of(f"{first}\n{side} G1 X9.\nX20.\n{block}\nY-30.\n", control, t1=5.0)
     assert rule in [finding.code for finding in run.findings if finding.line == 4] or not rule
     assert rule or not [finding for finding in run.findings if finding.line == 4]
 
@@ -368,6 +368,6 @@ OPEN = "G21 G17 G40 G90\nT4 M6\nG0 X-30. Y-30.\nG41 D4 G1 X0. Y-15. F400.\nY40.\
 )
 @pytest.mark.parametrize(("cancel", "late"), [("", ""), ("G40 ", ""), ("", "G40\n")])
 def test_a_program_that_ends_under_compensation_is_told(cancel: str, late: str, control: str, rule: str) -> None:
-    run = ran(OPEN.format(cancel=cancel, late=late), control, t4=10.0)
+    run = run_of(OPEN.format(cancel=cancel, late=late), control, t4=10.0)
     told = [(finding.code, finding.line) for finding in run.findings if "ends under compensation" in finding.text]
     assert told == ([] if cancel or late else [(rule, 8)])

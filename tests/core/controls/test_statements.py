@@ -10,14 +10,14 @@ from collections import Counter
 
 import pytest
 
-from tests.core.controls.hand import findings_of, ran, same, shape
+from tests.core.controls.hand import findings_of, run_of, same, shape
 from tests.core.controls.statement import Row
 from tests.core.controls.statements import ROWS
 
 
 def wrong(row: Row) -> str:
     """What of a row's run is not as it must be, empty if all is."""
-    run = ran(row.text, row.control, **row.tools)
+    run = run_of(row.text, row.control, **row.tools)
     path = shape(run)
     if row.path is not None and not same(path, row.path):
         return f"path {path}"

@@ -15,7 +15,7 @@ from core.finding import Finding, Severity
 from core.geometry.path import Path
 from core.geometry.piece import Arc, Line, Turn
 from core.units import Unit
-from tests.core.controls.hand import ran
+from tests.core.controls.hand import run_of
 from tests.tool_tables import end_mills
 
 CONTROLS = ("linuxcnc", "nine-series:b", "rosettacnc:normal")
@@ -103,20 +103,20 @@ BORE = (
 @pytest.mark.parametrize("control", ["fanuc:a", "haas:a", "linuxcnc"])
 @pytest.mark.parametrize("circle", ["I-20.\n", "G3 X-20. R20.\nX20. R20.\n"])
 def test_half_turns_into_and_out_of_a_bore_at_one_point_are_leads(circle: str, control: str) -> None:
-    (result,) = judge_run(ran(BORE.format(side="G41", circle=circle), control, t1=10.0))
+    (result,) = judge_run(run_of(BORE.format(side="G41", circle=circle), control, t1=10.0))
     assert (result.verdict.clean, result.verdict.uncut_length) == (True, 0.0)
     assert len(result.lead_lines) == 2
 
 
 @pytest.mark.parametrize("control", ["fanuc:a", "haas:a", "linuxcnc"])
 def test_half_turns_through_a_boss_gouge_it(control: str) -> None:
-    (result,) = judge_run(ran(BORE.format(side="G42", circle="I-20.\n"), control, t1=10.0))
+    (result,) = judge_run(run_of(BORE.format(side="G42", circle="I-20.\n"), control, t1=10.0))
     assert result.verdict.gouges
 
 
 @pytest.mark.parametrize("control", ["linuxcnc", "fanuc:a", "haas:a"])
 def test_a_contour_with_a_loop_at_its_far_end_is_no_lead(control: str) -> None:
-    run = ran(BIG.format(offset="" if control == "linuxcnc" else "D1 "), control, t1=10.0)
+    run = run_of(BIG.format(offset="" if control == "linuxcnc" else "D1 "), control, t1=10.0)
     assert any(result.verdict.gouges for result in judge_run(run))
 
 
@@ -174,7 +174,7 @@ GOOD = {
 def test_leads_and_repeated_passes_of_good_programs_do_not_gouge(name: str, control: str) -> None:
     start, cut = GOOD[name]
     text = FRAME.format(start=start, cut=cut.replace("D1 ", "") if control == "linuxcnc" else cut)
-    run = ran(text, control, t1=10.0)
+    run = run_of(text, control, t1=10.0)
     assert run.stopped_at is None
     (result,) = judge_run(run)
     assert result.verdict.clean
@@ -212,7 +212,7 @@ def test_a_circle_that_runs_five_degrees_past_its_start_does_not_gouge(kind: str
     text = (
         f"G21 G17 G40 G90 F400\nT1 M6\n{ROUND[kind].format(offset=offset, laps=LAPS[kind][way])}G40 G1 X0 Y60.\nM30\n"
     )
-    run = ran(text.replace("X0 Y60.", "X0 Y0") if kind == "bore" else text, control, t1=10.0)
+    run = run_of(text.replace("X0 Y60.", "X0 Y0") if kind == "bore" else text, control, t1=10.0)
     assert run.stopped_at is None
     (result,) = judge_run(run)
     assert (result.verdict.clean, result.verdict.uncut_length, len(result.lead_lines)) == (True, 0.0, 3)
@@ -225,7 +225,7 @@ OPEN = "G41 D1 G1 X-8. Y-6.\nG3 X0. Y2. J8.\nG1 Y30.\nG3 X-6. Y36. I-6.\nG1 X-40
 @pytest.mark.parametrize("control", ["fanuc:a", "haas:a", "linuxcnc", "rosettacnc:normal"])
 def test_a_cut_into_a_lead_arc_of_an_open_contour_is_a_warning(control: str) -> None:
     cut = OPEN.replace(" D1", "") if control in ("linuxcnc", "rosettacnc:normal") else OPEN
-    run = ran(FRAME.format(start="-18. Y-6.", cut=cut), control, t1=10.0)
+    run = run_of(FRAME.format(start="-18. Y-6.", cut=cut), control, t1=10.0)
     assert run.stopped_at is None
     told = [finding for finding in judged_findings(judge_run(run)) if "GOUGE" in finding.code]
     assert [(finding.code, finding.severity) for finding in told] == [("LEAD-GOUGE", Severity.WARNING)] * 2
@@ -260,7 +260,7 @@ def test_an_arc_that_runs_past_the_start_is_split_there() -> None:
 def test_each_of_two_passes_of_a_contour_is_judged() -> None:
     start, cut = GOOD["two laps"]
     narrow = FRAME.format(start=start, cut=cut.replace("X80.", "X79.", 1))
-    assert any(result.verdict.gouges for result in judge_run(ran(narrow, "fanuc:a", t1=10.0)))
+    assert any(result.verdict.gouges for result in judge_run(run_of(narrow, "fanuc:a", t1=10.0)))
 
 
 ROUNDED = (
@@ -299,14 +299,14 @@ SPIKES = {
 def test_moves_out_and_back_are_no_closed_contour(name: str, control: str) -> None:
     """The walls beside the moves are gouged and are not leads."""
     text = FRAME.format(start="-30. Y10.", cut=f"G41 D1 X-20. Y0.\n{SPIKES[name]}\nG40 Y20.")
-    findings = judged_findings(judge_run(ran(text, control, t1=10.0)))
+    findings = judged_findings(judge_run(run_of(text, control, t1=10.0)))
     assert {finding.code for finding in findings if finding.severity is Severity.ERROR} >= {"GOUGE"}
     assert "LEADS" not in {finding.code for finding in findings}
 
 
 def test_long_moves_beside_a_small_loop_may_be_walls() -> None:
     cut = "G41 D1 X-20. Y0.\nX40.\nX50. Y-20.\nX30. Y-20.\nX40. Y0.\nX100.\nG40 Y20."
-    findings = judged_findings(judge_run(ran(FRAME.format(start="-30. Y10.", cut=cut), "fanuc:a", t1=10.0)))
+    findings = judged_findings(judge_run(run_of(FRAME.format(start="-30. Y10.", cut=cut), "fanuc:a", t1=10.0)))
     (leads,) = [finding for finding in findings if finding.code == "LEADS"]
     assert leads.severity is Severity.WARNING
     cuts = [finding for finding in findings if finding.code == "LEAD-GOUGE"]
@@ -380,7 +380,7 @@ def ring_and_key(depths: int) -> str:
 
 
 def errors(program: str, control: str, t1: float = 6.0) -> list[Finding]:
-    findings = judged_findings(judge_run(ran(program, control, t1=t1)))
+    findings = judged_findings(judge_run(run_of(program, control, t1=t1)))
     return [finding for finding in findings if finding.severity is Severity.ERROR]
 
 
@@ -418,20 +418,20 @@ def two_rings(link: str) -> str:
 @pytest.mark.parametrize("control", CONTROLS)
 def test_long_moves_between_contours_are_reported_as_a_possible_contour(control: str) -> None:
     """Three moves may be an open contour: their gouges stay errors, with a hint on what to do."""
-    findings = judged_findings(judge_run(ran(two_rings("X-20.\nY-50.\nX100.\nY0.\n"), control, t1=6)))
+    findings = judged_findings(judge_run(run_of(two_rings("X-20.\nY-50.\nX100.\nY0.\n"), control, t1=6)))
     assert {9.0, 10.0} & {
         float(finding.text.split("line ")[1].split()[0]) for finding in findings if finding.code == "GOUGE"
     }
     (link,) = (finding for finding in findings if finding.code == "WAY")
     assert (link.severity, link.line) == (Severity.WARNING, 9)
     assert link.text.startswith("Lines 9-12 are treated as a contour")
-    short = judged_findings(judge_run(ran(two_rings("X-20. Y-50.\nX100. Y0.\n"), control, t1=6)))
+    short = judged_findings(judge_run(run_of(two_rings("X-20. Y-50.\nX100. Y0.\n"), control, t1=6)))
     assert not {"WAY", "GOUGE"} & {finding.code for finding in short}
 
 
 @pytest.mark.parametrize("way", ["X-20.\nG42 Y-50.\nX100.\nY0.\n", "X-20.\nY-50.\nX100.\nG42 Y0.\n"])
 def test_moves_between_contours_with_a_side_change_are_reported_once(way: str) -> None:
-    findings = judged_findings(judge_run(ran(two_rings(way), "nine-series:a", t1=6)))
+    findings = judged_findings(judge_run(run_of(two_rings(way), "nine-series:a", t1=6)))
     assert "SIDES" in {finding.code for finding in findings}
     (warning,) = (finding for finding in findings if finding.code == "WAY")
     assert warning.line == 9
@@ -445,7 +445,7 @@ NECK = "Y30.\nX10.\nY20.\nX5.\nY10.\nX19.\nY20.\nX14.\nY30.\nX40.\nY0.\nX0.\n"
 @pytest.mark.parametrize(("ring", "gouged"), [(FIRST_RING, False), (NECK, True)])
 def test_long_moves_between_contours_without_gouges_are_not_reported(control: str, ring: str, gouged: bool) -> None:
     link = "G21 G17 G90 G94 F100\nG0 X-30. Y60. Z5.\nG41 D1 G1 X-60. Y30.\nY0.\nX-40.\nX-20.\nX0.\n"
-    results = judge_run(ran(link + ring + "G40 X0. Y-40.\nM2\n", control, t1=6))
+    results = judge_run(run_of(link + ring + "G40 X0. Y-40.\nM2\n", control, t1=6))
     assert any(one.open_lines for one in results)
     codes = {one.code for one in judged_findings(results)}
     assert ("GOUGE" in codes) is gouged
@@ -459,7 +459,9 @@ def test_closed_or_single_contours_are_not_reported_as_moves_between_contours() 
     assert contours_of(alone) == ((0, 3),)
     assert not is_closed(alone, (0, 3))
     corners, circle = OPEN_KEY.format(circle=""), OPEN_KEY.format(circle="G2 X100. Y20. I0. J-20.\nG1 ")
-    findings_by_program = [judged_findings(judge_run(ran(program, "linuxcnc", t1=6))) for program in (corners, circle)]
+    findings_by_program = [
+        judged_findings(judge_run(run_of(program, "linuxcnc", t1=6))) for program in (corners, circle)
+    ]
     assert [sum(finding.code == "WAY" for finding in findings) for findings in findings_by_program] == [0, 1]
 
 
@@ -473,7 +475,7 @@ def test_the_comparison_of_controls_reports_the_gouge() -> None:
 def test_a_gouge_of_a_line_out_and_back_at_a_corner_is_a_warning() -> None:
     """The line leads in and out along the line of the bottom wall, and may be a wall itself."""
     cut = "G41 D1 G1 X-30. Y0. F100.\nX0.\nY50.\nX50.\nY0.\nX0.\nX-30.\nG40 X-45. Y-15."
-    findings = judged_findings(judge_run(ran(FRAME.format(start="-45. Y-15.", cut=cut), "fanuc:a", t1=10.0)))
+    findings = judged_findings(judge_run(run_of(FRAME.format(start="-45. Y-15.", cut=cut), "fanuc:a", t1=10.0)))
     assert {finding.severity for finding in findings if finding.code == "LEAD-GOUGE"} == {Severity.WARNING}
 
 
@@ -498,6 +500,6 @@ ROUNDED_BORES = {
 @pytest.mark.parametrize("digit", ROUNDED_BORES)
 def test_an_over_run_on_rounded_arcs_is_no_gouge(digit: str, control: str) -> None:
     text, diameter = ROUNDED_BORES[digit]
-    done = ran(text, control, t1=diameter)
+    done = run_of(text, control, t1=diameter)
     assert done.stopped_at is None
     assert not any(finding.code == "GOUGE" for finding in judged_findings(judge_run(done)))

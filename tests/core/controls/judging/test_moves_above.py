@@ -11,7 +11,7 @@ from core.controls.judging.judged_findings import judged_findings
 from core.controls.judging.judged_runs import judge_run
 from core.finding import Finding, Severity
 from core.units import Unit, sentence
-from tests.core.controls.hand import ran
+from tests.core.controls.hand import run_of
 
 ISO = ["fanuc:a", "fanuc:b-arc", "haas:a", "linuxcnc", "rosettacnc:normal"]
 RADIUS = 6.0
@@ -22,7 +22,7 @@ SQUARE = "G1 Y50.\nX50.\nY0.\nX-10.\n"
 
 def judged(text: str, control: str, *, head: str = HEAD) -> tuple[ControlRun, list[Finding]]:
     """The run of a program with a 12 mm tool and its findings."""
-    run = ran(f"{head}{text}M30\n", control, t1=2 * RADIUS)
+    run = run_of(f"{head}{text}M30\n", control, t1=2 * RADIUS)
     assert run.stopped_at is None, run.findings
     return run, list(judged_findings(judge_run(run)))
 
@@ -207,7 +207,7 @@ def test_klartext_leads_above_the_part_cut_nothing() -> None:
         "BEGIN PGM A MM\nTOOL CALL 1 Z S1000 DR+0\nL X-20 Y-20 R0 FMAX\nL Z+10 R0 FMAX\nL Z-2 R0 F200\n"
         "L X+0 Y-10 RL F200\nL Y+50\nL X+50\nL Y+0\nL X-10\nL Z+10 FMAX\nL X+25 Y+25 R0 FMAX\nEND PGM A MM\n"
     )
-    run = ran(program, "heidenhain", t1=2 * RADIUS)
+    run = run_of(program, "heidenhain", t1=2 * RADIUS)
     assert run.stopped_at is None
     findings = list(judged_findings(judge_run(run)))
     assert codes(findings) == ["ABOVE"]

@@ -8,7 +8,7 @@ from core.controls.judging.judged_findings import judged_findings
 from core.controls.judging.judged_runs import judge_run
 from core.finding import Finding, Severity
 from core.units import Unit, sentence
-from tests.core.controls.hand import ran
+from tests.core.controls.hand import run_of
 
 CONTROLS = ["fanuc:a", "haas:a", "linuxcnc", "rosettacnc:normal"]
 BORE = "G21 G17 G90 G40\nT1 M6\nG0 X20. Y20.\nZ5.\nG1 Z-5. F300\nG41 D1 X30.\nG3 I-10.\nG40 G1 X20.\n"
@@ -17,7 +17,7 @@ BORE = "G21 G17 G90 G40\nT1 M6\nG0 X20. Y20.\nZ5.\nG1 Z-5. F300\nG41 D1 X30.\nG3
 
 def rapids(program: str, control: str = "fanuc:a") -> list[Finding]:
     """The findings on rapids at depth."""
-    run = ran(program, control, t1=10.0)
+    run = run_of(program, control, t1=10.0)
     assert run.stopped_at is None, run.findings
     return [finding for finding in judged_findings(judge_run(run)) if finding.code == "RAPID"]
 
@@ -80,7 +80,7 @@ def test_a_rapid_along_a_wall_at_depth_is_reported(height: str, lines: list[int]
     [("G1 X70.\n", [9]), ("G1 X24.\nX70.\n", [10]), ("G1 Z-4.\nX70.\n", []), ("G0 Z5.\nG1 Z-5.\nX70.\n", []), ("", [])],
 )
 def test_a_feed_move_from_the_contour_through_its_wall_is_reported(after: str, lines: list[int]) -> None:
-    run = ran(f"{BORE}{after}G0 Z50.\nM30\n", "fanuc:a", t1=10.0)
+    run = run_of(f"{BORE}{after}G0 Z50.\nM30\n", "fanuc:a", t1=10.0)
     findings = [finding for finding in judged_findings(judge_run(run)) if finding.code == "FEED"]
     assert [finding.line for finding in findings] == lines
     assert all(finding.severity is Severity.WARNING for finding in findings)
@@ -98,7 +98,7 @@ def test_a_feed_move_from_the_contour_through_its_wall_is_reported(after: str, l
 )
 def test_a_feed_move_through_the_wall_to_the_contour_is_reported(before: str, lines: list[int]) -> None:
     boss = "G41 D1 X0. Y-10. F400.\nY50.\nX80.\nY0.\nX-10.\nG40 X-20. Y-20.\nG0 Z50.\nM30\n"
-    run = ran(f"G21 G17 G90 G40\nT1 M6\nG0 X100. Y25.\nZ10.\n{before}{boss}", "fanuc:a", t1=10.0)
+    run = run_of(f"G21 G17 G90 G40\nT1 M6\nG0 X100. Y25.\nZ10.\n{before}{boss}", "fanuc:a", t1=10.0)
     findings = [finding for finding in judged_findings(judge_run(run)) if finding.code == "FEED"]
     assert [finding.line for finding in findings] == lines
 

@@ -21,7 +21,7 @@ from core.verify.gouge import gouging
 from core.verify.judge import judge
 from core.verify.pairs import pairs_of, rounding_of
 from core.verify.verdict import Verdict
-from tests.core.controls.hand import ran
+from tests.core.controls.hand import run_of
 
 RING = """G21 G17 G90 F100
 T1 M6
@@ -43,7 +43,7 @@ STEPS = ((0.0, 30.0), (40.1, 0.0), (0.0, -30.0), (-40.1, 0.0))
 
 
 def _ring(calls: str, lap: str = LAP, control: str = "linuxcnc") -> ControlRun:
-    return ran(RING.format(calls=calls, lap=lap), control, t1=6)
+    return run_of(RING.format(calls=calls, lap=lap), control, t1=6)
 
 
 def _chain(corners: Sequence[tuple[float, float]], turns: Sequence[int] | None = None) -> Path:

@@ -7,7 +7,7 @@ import pytest
 from core.controls.judging.judged_findings import judged_findings
 from core.controls.judging.judged_runs import judge_run
 from core.finding import Finding, Severity
-from tests.core.controls.hand import ran
+from tests.core.controls.hand import run_of
 from tests.core.controls.leveled_programs import CASES, TOOL, Level, program
 
 CONTROLS = ("fanuc:a", "haas:a", "linuxcnc")
@@ -29,7 +29,7 @@ def found(shape: str, first: int, second: int, control: str = "fanuc:a") -> list
     start, passes, end = SHAPES[shape]
     number = "" if control == "linuxcnc" else " D1"
     cut = f"G41{number} G1 {passes.format(first, second)}\nG40 {end}"
-    run = ran(f"G21 G17 G40 G90 F400\nT1 M6\nG0 {start}\nG1 Z-3.\n{cut}\nM30\n", control, t1=10.0)
+    run = run_of(f"G21 G17 G40 G90 F400\nT1 M6\nG0 {start}\nG1 Z-3.\n{cut}\nM30\n", control, t1=10.0)
     return list(judged_findings(judge_run(run)))
 
 
@@ -58,7 +58,7 @@ def test_a_gouge_below_a_wider_pass_counts(start: int, height: int, gouges: list
         f"G21 G17 G40 G90 F400\nT1 M6\nG0 X{start}. Y0.\nG1 Z-10.\nG41 D1 X20.\nG3 I-20.\n"
         f"G1 Z{height}.\nX24.\nG3 I-24.\nG40 G1 X0.\nM30\n"
     )
-    findings = judged_findings(judge_run(ran(text, "fanuc:a", t1=10.0)))
+    findings = judged_findings(judge_run(run_of(text, "fanuc:a", t1=10.0)))
     assert [finding.line for finding in findings if finding.code == "GOUGE"] == gouges
     assert [finding.line for finding in findings if finding.code == "ROUGHING"] == [6]
 
@@ -68,7 +68,7 @@ def test_a_pass_that_a_later_pass_cuts_away_in_two_steps_is_roughing() -> None:
         "G21 G17 G40 G90 F400\nT1 M6\nG0 X-16. Y0.\nG1 Z-10.\nG41 D1 X20.\nG3 I-20.\n"
         "G1 Z-2.\nX24.\nG3 I-24.\nG1 Z-10.\nG3 I-24.\nG40 G1 X0.\nM30\n"
     )
-    findings = judged_findings(judge_run(ran(text, "fanuc:a", t1=10.0)))
+    findings = judged_findings(judge_run(run_of(text, "fanuc:a", t1=10.0)))
     assert [finding.line for finding in findings if finding.severity is not Severity.INFO] == [6]
 
 
@@ -93,7 +93,7 @@ def test_a_pass_that_shares_a_wall_with_the_later_one_is_a_wall() -> None:
     """The second pass of one outline has a wrong coordinate."""
     once = "Y30.\nX{}.\nY-30.\nX-30.\nY0.\n"
     cut = f"G41 D1 G1 X-45. Y-20.\nX-30. Y0.\n{once.format(30)}{once.format(28)}X-45. Y20.\nG40 X-60."
-    run = ran(f"G21 G17 G40 G90 F400\nT1 M6\nG0 X-60. Y-20.\nG1 Z-3.\n{cut}\nM30\n", "fanuc:a", t1=10.0)
+    run = run_of(f"G21 G17 G40 G90 F400\nT1 M6\nG0 X-60. Y-20.\nG1 Z-3.\n{cut}\nM30\n", "fanuc:a", t1=10.0)
     assert "GOUGE" in errors(list(judged_findings(judge_run(run))))
 
 
@@ -101,7 +101,7 @@ def test_a_gouge_of_the_last_pass_is_reported() -> None:
     """The way out of the bore is to the left of the wall, where the part is."""
     start, passes, end = SHAPES["bore"]
     cut = f"G41 D1 G1 {passes.format(20, 28).replace('X5.', 'X40.')}\nG40 {end}"
-    run = ran(f"G21 G17 G40 G90 F400\nT1 M6\nG0 {start}\nG1 Z-3.\n{cut}\nM30\n", "fanuc:a", t1=10.0)
+    run = run_of(f"G21 G17 G40 G90 F400\nT1 M6\nG0 {start}\nG1 Z-3.\n{cut}\nM30\n", "fanuc:a", t1=10.0)
     assert "GOUGE" in errors(list(judged_findings(judge_run(run))))
 
 
@@ -118,7 +118,7 @@ def radial(shape: str, *, again: bool, old: str = "", new: str = "") -> list[Fin
     start, passes = RADIAL[shape]
     cut = (passes + f"Z-6.\n{passes}" * again).replace(old, new)
     text = f"G21 G17 G40 G90 F400\nT1 M6\nG0 {start}\nG1 Z-3.\nG41 D1 {cut}G40 {start}\nM30\n"
-    return list(judged_findings(judge_run(ran(text, "fanuc:a", t1=10.0))))
+    return list(judged_findings(judge_run(run_of(text, "fanuc:a", t1=10.0))))
 
 
 @pytest.mark.parametrize("again", [False, True])
@@ -137,14 +137,14 @@ def test_a_line_out_that_goes_through_the_wall_gouges_it(shape: str, out: str, t
 
 def test_a_move_of_a_micrometer_is_no_pass() -> None:
     body = "G21 G17 G40 G90 F400\nT1 M6\nG0 X-30. Y-30.\nG1 Z-3.\nG41 D1 X0. Y0.\nX.001\nG40 X-30. Y30.\nM30\n"
-    findings = list(judged_findings(judge_run(ran(body, "fanuc:a", t1=0.5))))
+    findings = list(judged_findings(judge_run(run_of(body, "fanuc:a", t1=0.5))))
     assert "GOUGE" in errors(findings)
     assert not [finding for finding in findings if finding.code == "ROUGHING"]
 
 
 def findings_of_levels(text: str, control: str) -> list[Finding]:
     program_text = text.replace(" D1", "") if control == "linuxcnc" else text
-    run = ran(program_text, control, t1=TOOL)
+    run = run_of(program_text, control, t1=TOOL)
     return [*run.findings, *judged_findings(judge_run(run))]
 
 
@@ -194,7 +194,7 @@ def test_a_plunge_beside_the_wide_pass_gouges_the_bore_below_it() -> None:
         "G21 G17 G40 G90 F400\nT1 M6\nG0 X-16. Y0.\nG1 Z-10.\nG41 D1 X20.\nG3 I-20.\n"
         "G1 Z-2.\nX28.\nG3 I-28.\nG1 X24.\n{}Z-10.\nG3 I-24.\nG40 G1 X0.\nM30\n"
     )
-    findings = list(judged_findings(judge_run(ran(text.format(""), "fanuc:a", t1=10.0))))
+    findings = list(judged_findings(judge_run(run_of(text.format(""), "fanuc:a", t1=10.0))))
     (gouge,) = [finding for finding in findings if finding.severity is Severity.ERROR]
     assert (gouge.line, round(gouge.value or 0.0, 3)) == (12, 0.647)
 
@@ -213,7 +213,7 @@ def step(shape: str, passes: list[tuple[str, float]]) -> list[Finding]:
     start, first, once = STEPS[shape]
     around = "".join(f"Z{height}\n{once.format(size)}" for size, height in passes)
     text = f"G21 G17 G40 G90 F400\nT1 M6\nG0 {start}\nG1 Z-1.\nG41 D1 {first}\n{around}G40 {start}\nM30\n"
-    return list(judged_findings(judge_run(ran(text, "fanuc:a", t1=12.0))))
+    return list(judged_findings(judge_run(run_of(text, "fanuc:a", t1=12.0))))
 
 
 @pytest.mark.parametrize(
@@ -272,14 +272,14 @@ def test_a_plunge_beyond_the_shared_wall_gouges_the_step(dip: str, gouges: list[
         "G21 G17 G40 G90 F400\nT1 M6\nG0 X30. Y20.\nG1 Z-10.\nG41 D1 X0. Y20.\nY0.\nX50.\nY40.\nX0.\nY20.\n"
         f"Z-5.\nY0.\nX70.\n{dip}Y40.\nX0.\nY20.\nG40 X30. Y20.\nM30\n"
     )
-    findings = list(judged_findings(judge_run(ran(text, "fanuc:a", t1=12.0))))
+    findings = list(judged_findings(judge_run(run_of(text, "fanuc:a", t1=12.0))))
     assert bool(gouges) is ("GOUGE" in errors(findings)), findings
 
 
 def with_two_offsets(passes: str, start: str = "X0. Y0.", depth: str = "Z-10.") -> list[Finding]:
     """What is said of passes with D1 of a tool of 12 and D2 of 12.5 in one stretch."""
     text = f"G21 G17 G40 G90 F400\nT1 M6\nG0 {start}\nG1 {depth}\nG41 {passes}G40 {start}\nM30\n"
-    return list(judged_findings(judge_run(ran(text, "fanuc:a", t1=12.0, t2=12.5))))
+    return list(judged_findings(judge_run(run_of(text, "fanuc:a", t1=12.0, t2=12.5))))
 
 
 IN_BORE = "G1 X{0}. Y-10.\nG3 X{1}. Y0. R10.\nG3 I-{1}.\nG3 X{0}. Y10. R10.\nG1 X0. Y0.\n"
