@@ -137,10 +137,9 @@ class HomeScreen(BaseScreen):
 
     def _cells(self, each: Listed) -> Sequence[Content]:
         name = Content.styled(each.name, "" if each.example else "bold").truncate(NAME_WIDTH, ellipsis=True)
-        if each.folder:
-            return name, *(Content(""),) * 4
-        if each.kind:
-            return name, *(Content(""),) * 3, Content.styled(each.kind, "$c-label")
+        if each.folder or each.kind:
+            # a long name has lost the slash of a folder
+            return name, *(Content(""),) * 3, Content.styled(each.kind or "folder", "$c-label")
         if each.copy is not None:
             changed = datetime.fromisoformat(each.copy.time)
             return name, Content(day_of(changed, self.host.now())), Content(""), Content(""), Content(each.copy.word)

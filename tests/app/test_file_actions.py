@@ -206,6 +206,15 @@ async def test_a_name_that_is_too_long_for_its_column_ends_with_dots(folder):
         assert str(row[0]) == "holder for the s…"
 
 
+async def test_a_folder_says_that_it_is_one(folder):
+    (folder / "drawings of the customer").mkdir()
+    async with at_work(folder) as user:
+        await user.press("ctrl+o")
+        table = user.app.screen.query_one("#programs", DataTable)
+        (row,) = (cells for cells in map(table.get_row_at, range(table.row_count)) if str(cells[0]).startswith("draw"))
+        assert (str(row[0]), str(row[-1])) == ("drawings of the …", "folder")
+
+
 async def test_letters_typed_in_quick_succession_spell_one_name(folder):
     for name in ("part-b.nc", "part-c.nc", "pin.nc"):
         (folder / name).write_text("M30\n")
