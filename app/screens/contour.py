@@ -427,8 +427,9 @@ class ContourScreen(BlockActions, FormScreen):
 
     @on(OptionList.OptionSelected, "#findings")
     def _finding_chosen(self, event: OptionList.OptionSelected) -> None:
-        """Go to the field that the finding is about."""
-        self.host.go_to(self.entries[event.option_index])
+        """Go to the field that the finding is about; skip a finding that has gone meanwhile."""
+        if event.option_index == event.option_list.highlighted:
+            self.host.go_to(self.entries[event.option_index])
 
     # ---- the fields
 

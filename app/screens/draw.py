@@ -170,7 +170,9 @@ class DrawScreen(BaseScreen):
 
     @on(OptionList.OptionSelected)
     def _chosen(self, event: OptionList.OptionSelected) -> None:
-        self.host.go_to(self.entries[event.option_index])
+        """Go to the field that the finding is about; skip a finding that has gone meanwhile."""
+        if event.option_index == event.option_list.highlighted:
+            self.host.go_to(self.entries[event.option_index])
 
     def action_zoom(self, steps: int) -> None:
         """Zoom in or out about the cross, or about the center of the window without one."""

@@ -146,8 +146,9 @@ class ProgramScreen(BlockActions):
 
     @on(OptionList.OptionSelected)
     def _edit_finding(self, event: OptionList.OptionSelected) -> None:
-        """Go to the field that the finding is about."""
-        self.host.go_to(self.query_one(FindingsList).entries[event.option_index])
+        """Go to the field that the finding is about; skip a finding that has gone meanwhile."""
+        if event.option_index == event.option_list.highlighted:
+            self.host.go_to(self.query_one(FindingsList).entries[event.option_index])
 
     @on(DataTable.RowSelected)
     def _edit_block(self, event: DataTable.RowSelected) -> None:

@@ -40,6 +40,7 @@ async def test_a_list_that_becomes_shorter_forgets_a_step_to_a_finding_that_is_g
         findings.focus()
         await user.settle()
         findings.highlighted = len(findings.entries) - 1
+        findings.action_select()
         screen.entries = findings.entries = findings.entries[:1]
         await user.settle()
         assert findings.highlighted == 0
