@@ -96,8 +96,8 @@ class Actions(Provider):
             yield Hit(score, matcher.highlight(name), partial(self.screen.run_action, action), help=hint)
         number = GO_TO_SEGMENT.fullmatch(query)
         if number is not None:
-            run = partial(self.app.run_action, f"app.segment({number[1]})")
-            yield Hit(1.0, f"GO TO SEGMENT {number[1]}", run)
+            segment = int(number[1])
+            yield Hit(1.0, f"GO TO SEGMENT {segment}", partial(self.app.run_action, f"app.segment({segment})"))
         elif not matches:
             app: Any = self.app
             yield Hit(1.0, NOTHING_FOUND, partial(app.say, NOTHING_FOUND), help="Delete letters, or go back with Esc")

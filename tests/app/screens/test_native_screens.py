@@ -234,6 +234,15 @@ async def test_the_palette_presses_a_softkey_by_its_digit_and_finds_actions_by_n
     assert isinstance(user.app.screen, LookaheadScreen)
 
 
+async def test_a_number_with_a_leading_zero_in_the_palette_goes_to_its_segment(user: Operator):
+    await user.press("ctrl+k", "0", "2")
+    await user.finish()
+    await user.press("enter")
+    await user.finish()
+    assert isinstance(user.app.screen, ContourScreen)
+    assert user.session.place.segment == 2
+
+
 async def test_the_palette_says_at_once_that_no_action_has_that_name(user: Operator):
     """A delayed notice, such as Textual's, finds its list gone when the palette has been closed."""
     await user.press("ctrl+k", *"qqqq")
