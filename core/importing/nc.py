@@ -78,8 +78,9 @@ def _programmed(result: ControlRun, stretch: Stretch) -> Iterator[NcContour]:
         line = int(stretch.programmed.lines[-1])
         raise NcError(f"Line {line}: the contour is in the {stretch.plane.name} plane; only XY can be imported.")
     if stretch.changes:
-        line = int(stretch.programmed.lines[stretch.changes[0].programmed])
-        raise NcError(f"Line {line}: the side or the radius changes within the contour.")
+        row = stretch.changes[0].programmed
+        before, after = map(int, stretch.programmed.lines[row - 1 : row + 1])
+        raise NcError(f"The side or the radius of the tool changes within the contour, from line {before} to {after}.")
     rows = stretch.programmed.part(stretch.entry, len(stretch.programmed) - stretch.exit)
     for cuts, notes in _contours(list(_cuts(rows)), stretch.side):
         yield replace(_contour(cuts, stretch.side, stretch.radius, result, stretch.first), notes=notes)

@@ -9,6 +9,7 @@ from dataclasses import replace
 
 import pytest
 from ezdxf.filemanagement import new as ezdxf_new
+from ezdxf.xclip import XClip
 
 from core.geometry.piece import Line
 from core.importing.contours import ContourList, ImportOptions, contours_of, fit_sentence, fitted_contour
@@ -324,6 +325,29 @@ def test_skipped_entities_are_counted_by_kind() -> None:
     point = [(0, "POINT"), (8, "0"), (10, 0), (20, 0), (30, 0)]
     drawing = read(dxf(text, text, point, *square(0, 0, 1), [(0, "STRANGE"), (8, "0")]))
     assert drawing.skipped == {"TEXT": 2, "POINT": 1, "STRANGE": 1}
+
+
+def test_entities_of_a_second_section_are_damage_and_never_lost_in_silence() -> None:
+    second = dxf(*square(0, 0, 10)).decode().split("EOF")[0].rpartition("0\n")[0]
+    data = second.encode() + dxf(line((0, 0), (-9, -9)), units=None)
+    with pytest.raises(DrawingError, match="4 LINE could not be read"):
+        read(data)
+    assert "4 LINE could not be read." in read(data, damaged=True).notes
+
+
+def test_a_clipped_insert_is_reported() -> None:
+    document = ezdxf_new()
+    document.blocks.new("B").add_line((0, 0), (10, 0))
+    clip = XClip(document.modelspace().add_blockref("B", (0, 0)))
+    clip.set_block_clipping_path([(0, 0), (5, 5)])
+    text = io.StringIO()
+    document.write(text)
+    assert read(text.getvalue().encode()).notes == ("An INSERT is clipped (XCLIP): all of its block is taken.",)
+
+
+def test_a_file_over_64_megabytes_is_refused_unread() -> None:
+    with pytest.raises(DrawingError, match=r"64,000,001 bytes: at most 64,000,000"):
+        read(b"x" * 64_000_001)
 
 
 def test_entities_on_frozen_and_off_layers_are_counted() -> None:

@@ -296,6 +296,15 @@ def test_an_alarm_names_the_line() -> None:
         read_nc(b"G17G71G40G90\nG2X1.\n", "threeblock", ToolTable())
 
 
+@pytest.mark.parametrize(("control", "lines"), [("fanuc:a", "5 to 6"), ("nine-series", "4 to 5")])
+def test_a_contour_whose_offset_changes_on_the_way_is_refused_with_the_place(control: str, lines: str) -> None:
+    """Fanuc reaches the offset of D2 at the end of its block, the nine-series before it."""
+    text = b"G21 G90 G17\nG0 X-9. Y-9.\nG1 G42 D1 X0. Y0. F100\nX20.\nD2 Y20.\nX0.\nY0.\nG40 X-9. Y-9.\nM30\n"
+    tools = ToolTable.of(CutterTool(1, 4.0, unit=Unit.MM), CutterTool(2, 5.0, unit=Unit.MM))
+    with pytest.raises(NcError, match=f"^The side or the radius of the tool changes .*, from line {lines}[.]"):
+        read_nc(text, control, tools)
+
+
 def test_the_unit_of_the_program_is_kept() -> None:
     text = b"G20 G90 G17\nG0 X0 Y0\nG1 Z-.1 F10\nX1.\nY1.\nM30\n"
     read = read_nc(text, "linuxcnc", ToolTable(), center=CenterPathTool(None, 1.0))
