@@ -38,6 +38,7 @@ from core.pipeline.nc_proof import cutter_at_line
 from core.pipeline.post import post_control_program
 from core.progress import Progress
 from core.units import Unit
+from tests.app.documents.typist import ELSEWHERE
 from tests.app.test_file_actions import DEAD
 from tests.app.widget_pilot import SURROUNDINGS, Operator
 
@@ -221,6 +222,31 @@ async def test_n_and_p_step_through_the_findings_from_the_gravest_one(tmp_path):
         assert user.prompt == "No earlier finding."
         await with_tool(user, "1=.251")
         assert user.line == lines[options.highlighted], "the chosen one stays highlighted after another run"
+
+
+async def test_enter_on_a_finding_goes_to_its_line_and_f10_to_the_findings_and_back(tmp_path):
+    async with at_proof(tmp_path) as user:
+        await with_tool(user)
+        listing = user.proof.query_one(Listing)
+        await user.press("f10")
+        assert user.app.focused is user.proof.query_one("#proof-findings", OptionList)
+        await user.press("home", "enter")
+        assert user.app.focused is listing
+        assert user.line == user.proof.result_findings[0].line
+        await user.press("f10", "f10")
+        assert user.app.focused is listing
+
+
+async def test_a_listing_that_somebody_else_has_open_is_not_edited(tmp_path):
+    theirs = DocumentService(state=tmp_path / "theirs", me=ELSEWHERE)
+    (tmp_path / "p.nc").write_bytes(PROGRAM)
+    assert isinstance(theirs.open(tmp_path / "p.nc"), Opened)
+    async with at_proof(tmp_path) as user:
+        await user.press("escape", "enter")
+        assert user.prompt == "Somebody else has this file open. SAVE AS (Ctrl+K) makes a copy of your own."
+        await user.press("x", "down")
+        assert user.proof.document.text.data == PROGRAM
+    theirs.stop()
 
 
 async def test_letters_change_nothing_until_the_listing_is_edited(tmp_path):

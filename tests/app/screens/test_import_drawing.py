@@ -260,6 +260,33 @@ async def test_layers_leaves_out_a_layer_that_is_not_flat(tmp_path):
         assert len(user.rows) == 1
 
 
+async def test_layers_without_a_contour_and_no_layer_at_all_are_told_apart(tmp_path):
+    point = [(0, "POINT"), (8, "MARKS"), (10, 1), (20, 1), (30, 0)]
+    async with importer(dxf(*square(0, 0, 10), line((5, 5), (5, 5), "DOTS"), point), tmp_path) as user:
+        await user.press("f2", "space", "enter")
+        await user.until(lambda: not user.rows)
+        assert user.message == f"{Tone.WARNING}: These layers hold no contour. F2 chooses others."
+        await user.press("f2", "down", "space", "enter")
+        assert user.message == f"{Tone.WARNING}: No layer is marked: nothing was changed."
+        await user.press("enter")
+        assert not user.session.program.blocks[0].segments
+
+
+async def test_a_contour_that_no_segments_can_describe_is_refused_and_the_screen_stays(tmp_path):
+    bulged = [
+        tag for x, turn in ((0, 1e-4), (400, 0)) for tag in ((0, "VERTEX"), (8, "0"), (10, x), (20, 0), (42, turn))
+    ]
+    flat = [(0, "POLYLINE"), (8, "0"), (66, 1), (70, 0), *bulged, (0, "SEQEND")]
+    async with importer(dxf(flat), tmp_path) as user:
+        before = user.session.program
+        await user.press("enter")
+        await user.until(lambda: isinstance(user.app.screen, Question))
+        await user.press("l")
+        await user.until(lambda: user.importing.notice)
+        assert user.message.startswith(f"{Tone.ERROR}: Chain 1 has an arc of radius 1000000")
+        assert user.session.program is before
+
+
 async def test_too_many_entities_are_reported_with_count_and_limit(tmp_path, monkeypatch):
     monkeypatch.setattr("core.importing.dxf.MAX_ENTITIES", 3)
     async with importer(dxf(*square(0, 0, 10)), tmp_path) as user:
