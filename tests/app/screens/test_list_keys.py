@@ -67,6 +67,28 @@ async def test_draw_steps_through_its_own_findings_and_f10_goes_to_its_list_wher
         assert focused(user) == "full-drawing"
 
 
+async def test_enter_in_the_list_of_draw_goes_to_the_field_of_the_finding():
+    async with operator(size=(132, 43)) as user:
+        await run(user, "app.draw")
+        await user.press("f10", "down", "enter")
+        assert isinstance(user.screen, ContourScreen)
+        assert user.session.place.segment == user.screen.entries[1].segment == 10
+
+
+async def test_the_softkeys_of_draw_zoom_by_the_same_step_as_plus_and_minus():
+    async with operator() as user:
+        await run(user, "app.draw")
+        screen = user.screen
+        assert isinstance(screen, DrawScreen)
+        scales = []
+        for key in ("f3", "f4", "plus", "minus", "f5"):
+            await user.press(key)
+            await user.finish()
+            assert screen.drawing.drawn is not None
+            scales.append(screen.drawing.drawn.view.scale)
+        assert scales[0] == scales[2] < scales[1] == scales[3] == scales[4]
+
+
 async def test_a_half_typed_number_is_taken_before_the_lists_open():
     async with operator() as user:
         await run(user, "app.tools")
