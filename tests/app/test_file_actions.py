@@ -276,7 +276,7 @@ async def test_opening_another_program_asks_about_unsaved_work(folder):
     async with at_work(folder) as user:
         await user.press("pagedown", "tab", "'5.5", "enter", "ctrl+o")
         assert isinstance(user.app.screen, HomeScreen)
-        await user.app.workers.wait_for_complete()
+        await user.finish()
         await user.press("n", "enter")
         assert isinstance(user.app.screen, Question)
         await user.press("d")

@@ -296,7 +296,7 @@ async def test_output_asks_before_another_folder_or_a_file_and_never_replaces_a_
     (folder.parent / "x.txt").write_text("somebody's")
     async with at_work(folder) as user:
         await user.app.run_action(action)
-        await user.app.workers.wait_for_complete()
+        await user.finish()
         await user.settle()
         screen = user.screen
         for name, title in (("../x.txt", "WRITE IN ANOTHER FOLDER?"), ("settings.toml", ""), ("note.txt", "REPLACE")):
@@ -312,5 +312,5 @@ async def test_output_asks_before_another_folder_or_a_file_and_never_replaces_a_
             await user.press("escape")
         assert {(folder.parent / "x.txt").read_text(), (folder / "note.txt").read_text()} == {"somebody's"}
         await user.press("enter", "r")
-        await user.app.workers.wait_for_complete()
+        await user.finish()
         assert (folder / "note.txt").read_text() != "somebody's"

@@ -153,10 +153,10 @@ async def test_the_main_thread_never_accesses_the_folder(folder, folder_calls):
         for action, name in (("app.post", "part.nc"), ("app.sheet", "part.html")):
             await user.app.run_action(action)
             await user.settle()
-            await user.app.workers.wait_for_complete()
+            await user.finish()
             await user.settle()
             await user.press("enter")
-            await user.app.workers.wait_for_complete()
+            await user.finish()
             await user.settle()
             written.append(folder / name)
         assert folder_calls == []

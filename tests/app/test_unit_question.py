@@ -145,7 +145,7 @@ async def test_the_post_screen_names_the_clean_look_ahead(user: Operator) -> Non
     await user.begin("notch")
     user.app.action_post()
     await user.settle()
-    await user.app.workers.wait_for_complete()
+    await user.finish()
     await user.settle()
     assert f"Block 1: {GOUGED}" in str(user.screen.query_one("#post-findings", Static).content)
 

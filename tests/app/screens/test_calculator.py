@@ -88,6 +88,6 @@ async def test_the_palette_opens_the_calculator(user: Operator):
     await at_x_end(user)
     await user.press("ctrl+k")
     await user.press(*"calculator")
-    await user.app.workers.wait_for_complete()
+    await user.finish()
     await user.press("enter")
     assert type(user.app.screen).__name__ == "ChooseLine"

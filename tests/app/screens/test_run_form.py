@@ -243,7 +243,7 @@ def cells_drawn(user: Operator, style: Style) -> int:
 
 async def drawn(user: Operator) -> None:
     """Wait for the drawings."""
-    await user.app.workers.wait_for_complete()
+    await user.finish()
     await user.settle()
 
 
