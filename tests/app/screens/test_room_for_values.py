@@ -6,7 +6,7 @@ import pytest
 from textual.widgets import Label
 
 from app.screens.tools import ToolsScreen
-from app.widgets.field import ChoiceField, NumberField
+from app.widgets.field import ChoiceField, FieldRow, NumberField, State
 from tests.app.widget_pilot import Operator
 from tests.core.program.run_files import program_of
 from tests.core.program.test_calculated_runs import case_of, line
@@ -25,6 +25,18 @@ async def test_every_choice_fits_into_its_field(user: Operator):
         for field in fields:
             room = field.size.width - ARROW
             assert not [choice for choice in field.choices if len(choice) > room], field.name
+
+
+async def test_every_number_has_room_for_the_mark_of_unreadable_text(user: Operator):
+    for keys in ([], ["'1", "enter"], ["'2", "enter"], ["f4"], ["escape", "f5"]):
+        await user.press(*keys)
+        rows = [row for row in user.screen.query(FieldRow) if row.region.width and isinstance(row.input, NumberField)]
+        assert rows, keys
+        for row in rows:
+            row.set_class(True, State.UNREAD)
+        await user.settle()
+        for row in rows:
+            assert len(f"{row.cell.label} ERR") <= row.children[0].size.width, row.cell.label
 
 
 async def test_the_start_of_a_segment_fits_beside_its_label(user: Operator):
