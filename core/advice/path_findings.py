@@ -15,7 +15,7 @@ from core.comp.best_path.separation import Separation
 from core.comp.compensated import CenterPath, Compensated
 from core.finding import Finding, Severity
 from core.geometry.path import Path, as_complex, next_in_ring, tangents
-from core.geometry.piece import Point, Side
+from core.geometry.piece import Point, Side, signed_area
 from core.tolerance import GOUGE, JOINED, SMALLEST_SHOWN_LENGTH
 from core.verify.air_cuts import AirCut, air_cuts
 from core.verify.report import Names, contact_findings, move_name
@@ -202,11 +202,14 @@ def better_path_findings(best: BestPath, apart: Separation) -> tuple[Finding, ..
     return (Finding("BEST_DIFFERS", Severity.INFO, text, float(first.numbers[0]), None, (x, y), apart.length),)
 
 
-def size_warning(radius: float, surface: Path) -> tuple[Finding, ...]:
-    """Warn about a tool larger than the whole contour, which is usually the wrong one."""
+def size_warning(radius: float, surface: Path, side: Side, *, closed: bool) -> tuple[Finding, ...]:
+    """Warn about a tool larger than the whole contour, which is usually the wrong one.
+
+    Around the outside of a closed contour, such as a small island, a larger tool is nothing unusual.
+    """
     boxes = surface.boxes
     extent = max((boxes[2:].max(axis=1) - boxes[:2].min(axis=1)).tolist(), default=inf)
-    if 2 * radius <= extent:
+    if 2 * radius <= extent or (closed and signed_area(surface) * side.sign < 0.0):
         return ()
     text = "The tool is {value} across, larger than the whole contour ({0}). Check TOOL and TOOL SETUP."
     return (Finding("TOOL_LARGE", Severity.WARNING, text, field="tool", value=2 * radius, lengths=(extent,)),)

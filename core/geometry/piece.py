@@ -6,6 +6,7 @@ be solved and shown before numpy is loaded; whole paths are `core.geometry.path.
 
 from __future__ import annotations
 
+from collections.abc import Iterable
 from dataclasses import dataclass
 from enum import IntEnum, StrEnum
 from math import atan2, cos, hypot, sin, tau
@@ -106,6 +107,22 @@ class Arc:
 
 
 Piece = Line | Arc
+
+
+def signed_area(pieces: Iterable[Piece]) -> float:
+    """Return the area inside a closed chain in square millimeters, positive if it is traveled counterclockwise.
+
+    Green's formula: the polygon of the chords, plus for each arc the circular segment over its chord.
+    """
+    total, origin = 0.0, None
+    for piece in pieces:
+        (x0, y0), (x1, y1) = piece.start, piece.end
+        ox, oy = origin = origin or piece.start
+        total += ((x0 - ox) * (y1 - oy) - (x1 - ox) * (y0 - oy)) / 2.0
+        if isinstance(piece, Arc):
+            sweep = piece.sweep
+            total += piece.radius**2 * (sweep - sin(sweep)) / 2.0
+    return total
 
 
 class Side(StrEnum):

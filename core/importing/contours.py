@@ -19,7 +19,7 @@ import shapely
 
 from core.geometry.distance import distance, foot
 from core.geometry.path import Path
-from core.geometry.piece import Arc, Line, Piece, Point, Side, Turn
+from core.geometry.piece import Arc, Line, Piece, Point, Side, Turn, signed_area
 from core.geometry.piece_arrays import piece_arrays
 from core.importing.arc_fitting import Fitted, fit_arcs
 from core.importing.clean_up import Cleaned, LayeredPiece, clean_up, is_circle
@@ -27,7 +27,7 @@ from core.importing.curves import moved_piece, pieces_of_ellipse, pieces_of_spli
 from core.importing.drawing import BSpline, Drawing, DrawingError, DrawingUnit, Drawn, EllipseArc, Progress, silent
 from core.importing.joints import joined_chain, reversed_pieces
 from core.importing.loops import Chain, chained
-from core.importing.nesting import box_of, boxes_of, containers, crosses_itself, crossings, signed_area
+from core.importing.nesting import box_of, boxes_of, containers, crosses_itself, crossings
 from core.importing.nodes import KEY_DECIMALS, SAME_POINT
 from core.program.fields import LARGEST_LENGTH
 from core.units import Kind, Unit, decimals_shown, from_mm, length_text, show

@@ -12,9 +12,8 @@ from dataclasses import dataclass, field
 from math import atan2, tau
 from typing import Final, NamedTuple
 
-from core.geometry.piece import Arc, Line, Piece, Point
+from core.geometry.piece import Arc, Line, Piece, Point, signed_area
 from core.importing.clean_up import is_circle
-from core.importing.nesting import signed_area
 from core.importing.nodes import KEY_DECIMALS, Groups, Nodes, nodes_of
 
 SAME_DIRECTION: Final = 10.0**-KEY_DECIMALS

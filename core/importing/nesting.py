@@ -13,31 +13,13 @@ import numpy as np
 import shapely
 
 from core.geometry.path import Floats, Path, Pieces, boxes, chords_of
-from core.geometry.piece import Arc, Piece
+from core.geometry.piece import Arc, Piece, signed_area
 from core.geometry.piece_arrays import piece_arrays
 from core.verify.self_crossings import self_crossings
 
 Box = tuple[float, float, float, float]
 """Left, bottom, right and top."""
 CHORD_ERROR: Final = 0.005
-
-
-def signed_area(pieces: Sequence[Piece]) -> float:
-    """Return the area inside a closed chain in square millimeters, positive if it is traveled counterclockwise.
-
-    Green's formula: the polygon of the chords, plus for each arc the circular segment over its chord.
-    """
-    if not pieces:
-        return 0.0
-    ox, oy = pieces[0].start
-    total = 0.0
-    for piece in pieces:
-        (x0, y0), (x1, y1) = piece.start, piece.end
-        total += ((x0 - ox) * (y1 - oy) - (x1 - ox) * (y0 - oy)) / 2.0
-        if isinstance(piece, Arc):
-            sweep = piece.sweep
-            total += piece.radius**2 * (sweep - np.sin(sweep)) / 2.0
-    return float(total)
 
 
 def box_of(pieces: Sequence[Piece]) -> Box:

@@ -136,8 +136,10 @@ def _with_findings(block: DerivedBlock, paths: BlockPaths, program: Program, pro
     if paths.verdict is not None:
         # a typing mistake comes before its consequences
         back = turning_back(paths.surface, closed=closed)
-        trouble = (*path_findings(paths), *size_warning(block.radius, paths.surface))
+        trouble = path_findings(paths)
         if block.side is not None:
+            if block.solved.whole:
+                trouble += size_warning(block.radius, paths.surface, block.side, closed=closed)
             trouble = _with_largest_blend(trouble, paths, block.side, program, progress)
             trouble += tight_arcs(paths.verdict, paths.surface, block.side, block.radius)
     if len(paths.rough) > MAX_SIDE_PASSES:

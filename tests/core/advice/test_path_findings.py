@@ -82,8 +82,21 @@ def test_the_size_of_a_contour_includes_its_arcs(radius, told):
     """The points of this circle span 1 mm by 0."""
     half = Path.of(np.array([[0.0, 0], [1, 0], [0, 0]]), np.array([[0.5, 0], [1, 0]]), np.array([1, 0], np.int8))
     whole = Path.of(np.zeros((2, 2)), np.array([[1.0, 0]]), np.array([1], np.int8))
-    assert bool(size_warning(radius, whole)) is told
-    assert bool(size_warning(radius / 2, half)) is told
+    assert bool(size_warning(radius, whole, Side.LEFT, closed=True)) is told
+    assert bool(size_warning(radius / 2, half, Side.LEFT, closed=False)) is told
+
+
+@pytest.mark.parametrize("turn", [Turn.CW, Turn.CCW])
+def test_a_tool_may_be_larger_than_an_island(turn: Turn) -> None:
+    """A boss of 6 mm; the same circle as a hole is smaller than the tool."""
+    circle = Path.from_pieces([Arc((3, 0), (3, 0), (0, 0), turn)])
+    outside, inside = (Side.RIGHT, Side.LEFT) if turn is Turn.CCW else (Side.LEFT, Side.RIGHT)
+    assert not size_warning(5.0, circle, outside, closed=True)
+    assert size_warning(5.0, circle, inside, closed=True)
+    # an open edge encloses nothing, on either side
+    edge = Path.from_pieces([Arc((3, 0), (-3, 0), (0, 0), turn)])
+    assert size_warning(5.0, edge, outside, closed=False)
+    assert size_warning(5.0, edge, inside, closed=False)
 
 
 @pytest.mark.parametrize(

@@ -188,10 +188,20 @@ def test_a_move_past_start_that_gouges_is_named():
     assert name(rows[3] - 1, 0.0) == "the path of segment 1 past START"
 
 
-def test_a_tool_larger_than_the_part_is_reported():
+def test_a_tool_larger_than_the_pocket_is_reported():
     tiny = ((0, 0), (0.2, 0), (0.2, 0.2), (0, 0.2), (0, 0))
-    (result,) = derive(program(block(tiny, CutterComp.RIGHT))).blocks
-    assert "TOOL_LARGE" in codes(result)
+    (pocket,) = derive(program(block(tiny, CutterComp.LEFT))).blocks
+    assert "TOOL_LARGE" in codes(pocket)
+    (island,) = derive(program(block(tiny, CutterComp.RIGHT))).blocks
+    assert "TOOL_LARGE" not in codes(island)
+
+
+def test_the_size_of_a_contour_is_not_judged_before_every_segment_is_determined():
+    tiny = ((0, 0), (0.2, 0), (0.2, 0.2))
+    one = block(tiny, CutterComp.LEFT)
+    (unfinished,) = derive(program(replace(one, segments=(*one.segments, LineSegment())))).blocks
+    assert not unfinished.solved.whole
+    assert "TOOL_LARGE" not in codes(unfinished)
 
 
 DUMBBELL = (
