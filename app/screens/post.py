@@ -24,9 +24,10 @@ from app.session.session import Session
 from app.widgets.plain import PlainLabel, PlainText
 from app.widgets.rows import NamedRows, control_rows
 from app.widgets.softkeys import Softkey
-from app.widgets.status import SPACED_UNITS
+from app.widgets.status import SPACED_UNITS, Prompt
 from app.widgets.verdict import MARKS_OF_CHARACTERS
 from core.controls.control_names import display_name
+from core.program.edit import FormPlace
 from core.program.file.read import StoreError
 from core.progress import Stopped
 
@@ -178,7 +179,7 @@ class PostScreen(EntryScreen):
         override = None
         if self.made.against:
             if not self.made.overridable:
-                self.say(f"NOT POSTED: {self.made.against[0]}", Tone.ERROR)
+                self.say(self._refusal(self.made), Tone.ERROR)
                 return
             phrase = await self.app.push_screen_wait(
                 Phrase("NOT POSTED", [self.made.against[0], "Type POST ANYWAY to write it; the file says so."])
@@ -188,6 +189,31 @@ class PostScreen(EntryScreen):
                 return
             override = phrase
         await self._write(text, override)
+
+    def _refusal(self, made: PostedText) -> str:
+        """Return the first reason that prevents posting; one too long for the prompt stands whole in the findings."""
+        text = f"NOT POSTED: {made.against[0]}"
+        if self.query_one(Prompt).has_room(text):
+            return text
+        sign = MARKS_OF_CHARACTERS[self.host.characters].gouge
+        goes = "" if made.block is None else f" F10 goes to block {made.block}."
+        return f"NOT POSTED: the reason stands above, at the first {sign}.{goes}"
+
+    def action_panel(self, name: str) -> None:
+        """Go to a list on MILL CONTOUR; that of the findings is of the block that prevents posting."""
+        if name == "findings":
+            self._go_to_refused_block()
+        super().action_panel(name)
+
+    def action_finding(self, by: int) -> None:
+        """Show the next or previous finding of the block that prevents posting."""
+        self._go_to_refused_block()
+        super().action_finding(by)
+
+    def _go_to_refused_block(self) -> None:
+        block = None if self.made is None else self.made.block
+        if block is not None and block != self.current_session.place.block:
+            self.host.move(FormPlace(block))
 
     async def _write(self, text: str, override: str | None) -> None:
         program, choice = self.current_session.program, self.choice

@@ -27,12 +27,16 @@ OVERRIDE_PHRASES: Final = ("POST ANYWAY", "POST WITH GOUGE")
 
 @dataclass(frozen=True, slots=True)
 class PostedText:
-    """An NC text, or the reasons `against` posting; `overridable` if the operator's phrase overrides them."""
+    """An NC text, or the reasons `against` posting; `overridable` if the operator's phrase overrides them.
+
+    `block` is the number of the block of the first reason; None if it is about the whole program.
+    """
 
     text: str = ""
     against: tuple[str, ...] = ()
     notes: tuple[str, ...] = ()
     overridable: bool = False
+    block: int | None = None
 
 
 def choices() -> tuple[ControlChoice, ...]:
@@ -77,7 +81,8 @@ def nc_text(
         return PostedText(result.text, notes=(*notes, *(located_sentence(note, unit) for note in remarks)))
     against, remedies = refusals(derived, result)
     overridable = choice == CENTER_PATH and all(finding.code in OVERRIDABLE_CODES for finding in result.findings)
-    return PostedText(against=against, notes=(*remedies, *notes), overridable=overridable)
+    block = result.findings[0].block if result.findings else None
+    return PostedText(against=against, notes=(*remedies, *notes), overridable=overridable, block=block)
 
 
 def refusals(derived: Derived, refusal: Refusal) -> tuple[tuple[str, ...], tuple[str, ...]]:

@@ -7,8 +7,9 @@ from contextlib import suppress
 from dataclasses import dataclass
 from pathlib import Path
 from shutil import disk_usage
+from textwrap import wrap
 from time import strftime
-from typing import Final
+from typing import ClassVar, Final
 
 from textual.app import ComposeResult
 from textual.containers import Horizontal
@@ -40,9 +41,15 @@ class Surroundings:
 class Prompt(PlainText):
     """Two lines on what the field with the cursor takes, or why something was refused."""
 
+    LINES: ClassVar[int] = 2
+
     def __init__(self) -> None:
         super().__init__(id="prompt")
         self.sentence = Sentence("")
+
+    def has_room(self, text: str) -> bool:
+        """Return whether a text is shown whole."""
+        return len(wrap(text, max(self.content_size.width, 1))) <= self.LINES
 
     def show(self, sentence: Sentence) -> None:
         """Show a sentence in its tone; do nothing if it is shown already."""

@@ -25,6 +25,7 @@ from app.widgets.drawing import Drawing
 from core.program.model import Coolant, Number
 from core.units import Unit
 from tests.app.widget_pilot import Operator, operator
+from tests.core.program.parts import line, program
 from tests.core.program.run_files import program_of
 
 pytestmark = pytest.mark.asyncio(loop_scope="module")
@@ -199,6 +200,40 @@ async def test_a_gouge_is_posted_only_after_the_override_phrase(tmp_path, monkey
         assert "OVERRIDDEN" in (tmp_path / "part.nc").read_text()
 
 
+async def test_a_reason_too_long_for_the_prompt_is_pointed_to(user: Operator):
+    """The prompt has two lines; the findings above it hold the whole sentence."""
+    climbing = program(line(x_end=50.0, y_end=0.0, z_end=-0.125, feed=90.0))
+    await user.begin(climbing)
+    await run(user, "app.post")
+    await user.press("f2", "down", "enter")
+    await user.finish()
+    await user.press("enter")
+    await user.finish()
+    assert user.prompt == "NOT POSTED: the reason stands above, at the first ✖. F10 goes to block 1."
+    screen = user.app.screen
+    assert isinstance(screen, PostScreen)
+    assert "choose CUTTER COMP. ON." in " ".join(str(screen.query_one("#post-findings", Static).content).split())
+    # a short reason is in the prompt itself
+    await user.begin(program(line(x_end=50.0, y_end=0.0), start={"speed": None}))
+    await run(user, "app.post")
+    await user.press("enter")
+    await user.finish()
+    assert user.prompt == "NOT POSTED: Block 1, START: SPEED (RPM) is blank: enter it on START."
+
+
+@pytest.mark.parametrize("key", ["f10", "ctrl+n"])
+async def test_the_findings_keys_on_post_go_to_the_block_that_stops_it(user: Operator, key: str):
+    part = program(line(x_end=50.0, y_end=0.0, feed=90.0))
+    unfinished = replace(part.blocks[0], segments=(line(length=10.0),))
+    await user.begin(replace(part, blocks=(*part.blocks, unfinished)))
+    await run(user, "app.post")
+    await user.press(key)
+    await user.finish()
+    assert isinstance(user.app.screen, ContourScreen)
+    assert user.session.place.block == 2
+    assert user.app.screen.query_one("#findings").has_focus == (key == "f10")
+
+
 async def test_blocks_are_copied_moved_and_deleted_on_the_program_screen(user: Operator):
     await run(user, "app.program")
     assert isinstance(user.app.screen, ProgramScreen)
@@ -357,8 +392,8 @@ async def test_the_palette_mirrors_a_block_in_one_edit(user: Operator):
 
 async def test_the_palette_names_segments_whose_data_do_not_turn_with_the_block():
     kept, lost = {"angle": 30, "length": 50}, {"angle": 30, "x_end": 50}
-    for line, said in ((lost, " Typed points replace the data of segments 1."), (kept, "")):
-        part = {"start": [0, 0], "segments": [{"kind": "LINE", **line}]}
+    for segment, said in ((lost, " Typed points replace the data of segments 1."), (kept, "")):
+        part = {"start": [0, 0], "segments": [{"kind": "LINE", **segment}]}
         async with operator(program_of(part)) as user:
             await user.app.run_action("app.rotate_block")
             await user.settle()
