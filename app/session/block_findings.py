@@ -5,7 +5,7 @@ The findings list, the loupe, DRAW and the numbers in the part's drawing all use
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from enum import IntEnum
 from typing import TYPE_CHECKING, Final
 
@@ -64,10 +64,33 @@ class Entry:
 
 
 def block_findings(block: DerivedBlock, table: Table | None, unit: Unit) -> tuple[Entry, ...]:
-    """Return all findings of a block and the notes of its look-ahead table, sorted by kind."""
+    """Return all findings of a block and the notes of its look-ahead table, sorted by kind.
+
+    A gouge of a blend arc is one entry with its remedy, though it is reported as GOUGE and as BLEND_GOUGES.
+    """
     notes = () if table is None else table.notes
-    entries = [_entry(finding, unit) for finding in dict.fromkeys((*block.findings, *notes))]
+    findings = dict.fromkeys((*block.findings, *notes))
+    blends = {_place(finding): finding for finding in findings if finding.code == "BLEND_GOUGES"}
+    gouges = {_place(finding) for finding in findings if finding.code == "GOUGE"}
+    entries = []
+    for finding in findings:
+        if finding.code == "BLEND_GOUGES" and _place(finding) in gouges:
+            continue
+        blend = blends.get(_place(finding)) if finding.code == "GOUGE" else None
+        entry = _entry(finding, unit)
+        entries.append(entry if blend is None else _with_remedy(entry, blend, unit))
     return tuple(sorted(entries, key=lambda entry: (entry.kind, -entry.area)))
+
+
+def _place(finding: Finding) -> tuple[float | None, Point | None, float | None]:
+    """Return what GOUGE and BLEND_GOUGES have in common if they are about the same gouge."""
+    return finding.segment, finding.at, finding.value
+
+
+def _with_remedy(gouge: Entry, blend: Finding, unit: Unit) -> Entry:
+    """Return the gouge with the advice of the finding on the blend arc, and with the field that mends it."""
+    advice = sentence(blend, unit).partition(". ")[2]
+    return replace(gouge, text=f"{gouge.text} {advice}", field=blend.field)
 
 
 def _entry(finding: Finding, unit: Unit) -> Entry:

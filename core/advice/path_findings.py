@@ -105,7 +105,8 @@ def blend_findings(
 ) -> Iterator[Finding]:
     """Report blend arcs that gouge or cross a wall; another start or a smaller BLEND OFFSET is the remedy.
 
-    `wrong_side` are the moves that run on the part's side, by their rows in the verdict.
+    The gouge that is named is also a GOUGE, with the same segment, place and depth.  `wrong_side` are the moves that run
+    on the part's side, by their rows in the verdict.
     """
     for loop, rows in _rows(loops):
         into, out = ("in", loop.lead_in, rows.lead_in, rows.path), ("out", loop.lead_out, rows.lead_out, rows.end)
@@ -113,7 +114,7 @@ def blend_findings(
             hit = next((gouge for gouge in gouges if first <= gouge.path_piece < last), None)
             if hit is not None:
                 text = f"The blend-{name} arc gouges {{value}} deep. Start elsewhere or reduce BLEND OFFSET with F4."
-                where = hit.surface_number, "blend_offset", hit.at, hit.depth
+                where = hit.surface_number, "blend_offset", hit.surface_at, hit.depth
                 yield Finding("BLEND_GOUGES", Severity.ERROR, text, *where)
             if any(first <= row < last for row in wrong_side):
                 # its free end
