@@ -13,6 +13,7 @@ from core.advice.remedies import FEWEST_CLOSED
 from core.comp.best_path.best_path import BestPath
 from core.comp.best_path.separation import Separation
 from core.comp.compensated import CenterPath, Compensated
+from core.comp.findings import NO_PATH
 from core.finding import Finding, Severity
 from core.geometry.path import Path, as_complex, next_in_ring, tangents
 from core.geometry.piece import Point, Side, signed_area
@@ -105,8 +106,8 @@ def blend_findings(
 ) -> Iterator[Finding]:
     """Report blend arcs that gouge or cross a wall; another start or a smaller BLEND OFFSET is the remedy.
 
-    The gouge that is named is also a GOUGE, with the same segment, place and depth.  `wrong_side` are the moves that run
-    on the part's side, by their rows in the verdict.
+    The gouge that is named is also a GOUGE, with the same segment, place and depth.  `wrong_side` are the moves that
+    run on the part's side, by their rows in the verdict.
     """
     for loop, rows in _rows(loops):
         into, out = ("in", loop.lead_in, rows.lead_in, rows.path), ("out", loop.lead_out, rows.lead_out, rows.end)
@@ -127,7 +128,7 @@ def blend_findings(
 def rough_findings(rough: Sequence[RoughPass], finish: Compensated | None) -> Iterator[Finding]:
     """Report the problems of each roughing pass: gouges, stock that is not left, no room, segments that it skips."""
     for rough_pass in rough:
-        yield from _rough_errors(rough_pass)
+        yield from _rough_errors(rough_pass, posts_control=finish is not None)
         skipped = _deleted(rough_pass.compensated) - (set() if finish is None else _deleted(finish))
         if skipped and finish is not None:
             numbers = ", ".join(f"{number:g}" for number in sorted(skipped))
@@ -136,7 +137,7 @@ def rough_findings(rough: Sequence[RoughPass], finish: Compensated | None) -> It
             yield Finding("ROUGH_DELETES", Severity.WARNING, text, min(skipped), lengths=(rough_pass.stock,))
 
 
-def _rough_errors(rough_pass: RoughPass) -> Iterator[Finding]:
+def _rough_errors(rough_pass: RoughPass, *, posts_control: bool) -> Iterator[Finding]:
     for gouge in rough_pass.verdict.gouges[:1]:
         left = rough_pass.stock - gouge.depth
         where = gouge.surface_number, None, gouge.surface_at, abs(left), (rough_pass.stock,)
@@ -152,6 +153,10 @@ def _rough_errors(rough_pass: RoughPass) -> Iterator[Finding]:
         yield Finding("ROUGH_GOUGES", Severity.ERROR, text, lengths=(rough_pass.stock,))
     if not rough_pass.loops:
         text = "No room for the {0} roughing pass: skipped."
+        back = any(finding.code == NO_PATH and finding.field for finding in rough_pass.compensated.findings)
+        if posts_control and back:
+            text = "The {0} roughing pass comes back to its start next to a corner and is skipped. "
+            text += "Start in the middle of a side."
         yield Finding("ROUGH_EMPTY", Severity.WARNING, text, lengths=(rough_pass.stock,))
 
 

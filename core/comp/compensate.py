@@ -96,7 +96,7 @@ def _walked(stages: Compensated, chain: RawChain, candidates: Candidates, blend:
     if closed:
         path_findings += findings.most_deleted_finding(contour, pruned)
     if not len(pruned.path):
-        path_findings.append(findings.NOTHING_LEFT)
+        path_findings.append(findings.nothing_left(chain, pruned, closed=closed))
     return replace(
         stages,
         path=pruned.path,

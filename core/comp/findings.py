@@ -19,8 +19,8 @@ MAX_NAMED_PLACES: Final = 100
 """At most this many places of one kind are listed; a last finding then says how many there are in all."""
 
 
-NOTHING_LEFT: Final = Finding("NO_PATH", Severity.ERROR, "Nothing is left of the path: the tool does not fit.")
-"""The error for a path with no length at all."""
+NO_PATH: Final = "NO_PATH"
+"""The code of the error for a path with no length at all."""
 
 
 def contour_refusals(contour: Path, radius: float, lookaheads: Sequence[int]) -> tuple[Finding, ...]:
@@ -141,6 +141,21 @@ def most_deleted_finding(contour: Path, pruned: Pruned) -> list[Finding]:
     what = f"LOOK-AHEAD deletes most of the part: {segment_list(deleted)}, {{value}} long."
     text = f"{what} Press Space on LOOKAHEAD to find a value that keeps it."
     return [Finding("LONG_WAY", Severity.WARNING, text, float(deleted[0]), value=erased)]
+
+
+def nothing_left(chain: RawChain, pruned: Pruned, *, closed: bool) -> Finding:
+    """Return why nothing is left of a path: the tool does not fit, or the path comes back to its start too early.
+
+    It does that where START is as far from an inside corner as the tool's center from both walls; the look-ahead takes
+    the whole contour for a loop then.
+    """
+    start = chain.raw.points[:1]
+    back = np.hypot(*(pruned.deleted.at - start).T) <= JOINED
+    if not closed or not back.any():
+        return _error(NO_PATH, "Nothing is left of the path: the tool does not fit. Use a smaller one.")
+    text = "Nothing is left of the path. Near the corner it meets its own start, X {x} Y {y}, and is deleted. "
+    text += "Start in the middle of a side."
+    return Finding(NO_PATH, Severity.ERROR, text, 0.0, "x_start", point_of_row(start[0]))
 
 
 def segment_list(numbers: NDArray[np.float64]) -> str:

@@ -223,6 +223,11 @@ def test_roughing_that_skips_segments_or_has_no_room_is_reported() -> None:
     assert messages(replace(paths, rough=(none,)), "ROUGH_EMPTY") == [
         (Severity.WARNING, None, "No room for the 0.200 roughing pass: skipped.")
     ]
+    points = (0.35, 0), (2, 0), (2, 1.5), (0, 1.5), (0, 0), (0.35, 0)
+    near_corner = work(lines(*points), radius=0.25, lookahead=4, closed=True, stocks=(0.1,))
+    text = "The 0.100 roughing pass comes back to its start next to a corner and is skipped. "
+    expected = [(Severity.WARNING, None, f"{text}Start in the middle of a side.")]
+    assert messages(near_corner, "ROUGH_EMPTY") == expected
     beyond = RoughPass(0.2, paths.loops, paths.compensated, replace(paths.verdict, wrong_side=(0,)))
     assert messages(replace(paths, rough=(beyond,)), "ROUGH_GOUGES")[0][2].endswith("on the wrong side of the contour.")
     unjudged = RoughPass(0.2, paths.loops, paths.compensated, replace(paths.verdict, judged=False))

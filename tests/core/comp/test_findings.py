@@ -10,12 +10,13 @@ import pytest
 
 from core.comp.compensate import compensate, compensate_all
 from core.comp.compensated import Compensated
-from core.comp.findings import MAX_NAMED_PLACES, segment_list
+from core.comp.findings import MAX_NAMED_PLACES, NO_PATH, segment_list
 from core.finding import Finding, Severity
 from core.geometry.path import EMPTY, Path
 from core.geometry.piece import Arc, Line, Piece, Point, Side, Turn
 from tests.core.comp.contours import lines
 
+TRIANGLE = [(2.0, 0.0), (1.0, 3.0**0.5), (0.0, 0.0)]
 L = lines((0, 0), (2, 0), (2, 2))
 BAD = [nan, inf, -inf, 1e8, 1e300]
 
@@ -254,3 +255,29 @@ def test_odd_contours_never_fail(radius):
                 assert len(done.path) or any(one.severity is Severity.ERROR for one in done.findings)
                 assert all(piece.length > 0 for piece in done.path)
                 assert all(one.start == two.end for two, one in pairwise(done.path))
+
+
+@pytest.mark.parametrize(
+    ("points", "lookahead", "at"),
+    [
+        ([(0.25, 0.0), (2.0, 0.0), (2.0, 1.5), (0.0, 1.5), (0.0, 0.0)], 4, (0.25, 0.25)),
+        ([(0.25 * 3.0**0.5, 0.0), *TRIANGLE], 2, (0.25 * 3.0**0.5, 0.25)),
+    ],
+)
+def test_a_path_that_comes_back_to_its_start_says_where_to_start(points, lookahead, at):
+    """START is as far from the corner as the center from both walls: one radius at a square corner."""
+    lost = compensate(lines(*points, points[0]), Side.LEFT, 0.25, lookahead, closed=True)
+    assert not len(lost.path)
+    (finding,) = [each for each in lost.findings if each.code == NO_PATH]
+    assert (finding.severity, finding.segment, finding.field) == (Severity.ERROR, 0.0, "x_start")
+    assert finding.at == pytest.approx(at)
+    assert finding.text.endswith("Start in the middle of a side.")
+    beside = [(points[0][0] + 0.01, 0.0), *points[1:]]
+    assert len(compensate(lines(*beside, beside[0]), Side.LEFT, 0.25, lookahead, closed=True).path)
+
+
+def test_a_tool_that_does_not_fit_is_said_to_be_too_large():
+    pocket = lines((0.25, 0), (0.5, 0), (0.5, 0.5), (0, 0.5), (0, 0), (0.25, 0))
+    lost = compensate(pocket, Side.LEFT, 0.25, 4, closed=True)
+    (finding,) = [each for each in lost.findings if each.code == NO_PATH]
+    assert finding.text == "Nothing is left of the path: the tool does not fit. Use a smaller one."
