@@ -15,14 +15,14 @@ from textual.app import ComposeResult
 from textual.binding import Binding, BindingType
 from textual.containers import Horizontal, Vertical
 from textual.content import Content
-from textual.widgets import DataTable, Input, Label, Static
+from textual.widgets import DataTable, Input, Static
 
 from app.documents.drawing_files import Progress, Worker, drawing_bytes, prepare_workers, read_and_list
 from app.documents.programs import empty_program
 from app.documents.questions import GO_BACK, Answer
 from app.screens.base import BaseScreen
 from app.screens.dialogs import ChooseSeveral, NumberEntry, NumberForm, Question, Steps
-from app.session.formats import length, place
+from app.session.formats import cut_in_middle, length, place
 from app.session.messages import Sentence, Tone
 from app.widgets.contour_table import ContourTable
 from app.widgets.drawing import LOOK_KEYS, Drawing
@@ -119,6 +119,25 @@ class ContoursDrawing(Drawing, can_focus=True):
     ]
 
 
+class FileTitle(PlainText):
+    """The file's name, its unit and where that is from, its layers and how many rows are marked."""
+
+    def __init__(self, name: str, *, id: str, classes: str) -> None:
+        super().__init__(id=id, classes=classes)
+        self._words = (name, "", "", "")
+
+    def show(self, unit: str, source: str, rest: str) -> None:
+        """Show these words after the name."""
+        self._words = (self._words[0], unit, source, rest)
+        self.refresh()
+
+    def render(self) -> Content:
+        """Return all words; if they have no room, leave out the source of the unit and cut the name in its middle."""
+        (name, unit, source, rest), room = self._words, self.size.width
+        whole = f"{name}{unit}{source}{rest}"
+        return Content(whole if len(whole) <= room else f"{cut_in_middle(name, room - len(unit + rest))}{unit}{rest}")
+
+
 class ImportScreen(BaseScreen):
     """The import of one drawing file; `fresh` if the program is new and takes the drawing's unit."""
 
@@ -164,7 +183,7 @@ class ImportScreen(BaseScreen):
         with Vertical(id="import", classes="panel -bare"):
             with Horizontal(classes="head"):
                 yield PlainLabel("IMPORT", classes="head-label")
-                yield PlainLabel(id="import-file", classes="head-kind")
+                yield FileTitle(self.path.name, id="import-file", classes="head-kind")
             yield ContourTable(id="contours")
             with Horizontal(id="filter-line", classes="field"):
                 yield PlainLabel("FILTER", classes="label")
@@ -174,7 +193,6 @@ class ImportScreen(BaseScreen):
 
     def on_mount(self) -> None:
         """Start reading the file."""
-        self._show_title()
         prepare_workers()
         self._read()
 
@@ -351,14 +369,14 @@ class ImportScreen(BaseScreen):
         self._show_row()
 
     def _show_title(self) -> None:
-        words = self.path.name
+        unit = source = rest = ""
         if self.options is not None and self.drawing is not None:
             count, most = len(self.options.layers or self.drawing.layers), len(self.drawing.layers)
-            source = " ($INSUNITS)" if self.drawing.unit is not None else ""
-            words += f"  {self.options.unit}{source}  layers {count} of {most}"
+            unit, source = f"  {self.options.unit}", " ($INSUNITS)" if self.drawing.unit is not None else ""
+            rest = f"  layers {count} of {most}"
         if self.marked:
-            words += f"  {len(self.marked)} marked"
-        self.query_one("#import-file", Label).update(words)
+            rest += f"  {len(self.marked)} marked"
+        self.query_one(FileTitle).show(unit, source, rest)
 
     def _show_row(self) -> None:
         """Show the remarks on the row with the cursor, and its drawing."""

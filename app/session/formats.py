@@ -40,3 +40,11 @@ def shortened(text: str, width: int) -> str:
         return text
     kept = text[:width].rpartition(" ")[0].rstrip(" ,;:")
     return f"{kept} …" if len(kept) + 2 <= width else f"{kept}…"[:width]
+
+
+def cut_in_middle(text: str, width: int) -> str:
+    """Return the text in at most `width` characters, cut in the middle, so that its beginning and its end stay."""
+    if len(text) <= width:
+        return text
+    end = max(width - 1, 0) // 2
+    return f"{text[: max(width - 1 - end, 0)]}…{text[len(text) - end :]}"

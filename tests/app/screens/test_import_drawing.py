@@ -132,10 +132,10 @@ async def importer(source: Path | bytes, tmp_path: Path, *, unit: Unit = Unit.MM
 
 
 @asynccontextmanager
-async def running(unit: Unit = Unit.MM) -> AsyncIterator[Importer]:
+async def running(unit: Unit = Unit.MM, size: tuple[int, int] = (80, 24)) -> AsyncIterator[Importer]:
     """An operator at an empty program."""
     app = CutcompApp(Session.of(empty_program(unit)), surroundings=SURROUNDINGS)
-    async with Importer.of(app) as user:
+    async with Importer.of(app, size) as user:
         yield user
 
 
@@ -151,6 +151,19 @@ async def test_the_contours_are_listed_and_the_chosen_one_is_drawn(tmp_path):
         assert title == "d14-layers.dxf  MM ($INSUNITS)  layers 2 of 2"
         await user.press("down")
         assert user.importing.picture.heading == "chain 2  HOLE"
+
+
+@pytest.mark.parametrize("size", [(80, 24), (60, 20)])
+async def test_a_long_name_is_cut_in_the_middle_of_the_title(tmp_path, size):
+    path = tmp_path / "housing_cover_left_hand_side_final_revision_C7.dxf"
+    path.write_bytes((DATA / "d14-layers.dxf").read_bytes())
+    async with running(size=size) as user:
+        await user.show(path)
+        await user.press("space")
+        title = str(user.importing.query_one("#import-file").render())
+        assert title.endswith("C7.dxf  MM  layers 2 of 2  1 marked")
+        assert title.startswith("housing_")
+        assert len(title) <= user.importing.query_one("#import-file").size.width
 
 
 async def test_marked_contours_become_blocks_in_one_undoable_edit(tmp_path):
