@@ -51,6 +51,8 @@ class DerivationActions(App[int]):
     """What Esc has stopped: the calculation of a program, or of a block's look-ahead table."""
     _advice_timer: Timer | None = None
     _unit_mentioned = _unit_settled = False
+    part_is_drawn = False
+    """Whether all contours of the program are from a drawing whose unit is known."""
 
     def say(self, text: str, tone: Tone = Tone.PLAIN) -> None:
         """Show a sentence on the prompt line of the screen in front, or of the one under a dialog."""
@@ -148,7 +150,7 @@ class DerivationActions(App[int]):
         from core.pipeline.unit_question import unit_question
         from core.units import sentence
 
-        question = unit_question(self.session.derived)
+        question = unit_question(self.session.derived, drawn=self.part_is_drawn)
         return "" if question is None else sentence(question, self.session.program.unit)
 
     def _mention_unit(self) -> None:
@@ -260,7 +262,7 @@ class DerivationActions(App[int]):
         """Switch to the session of another program, or of the same one under a new name."""
         same = session.program is self.session.program and session.derived is self.session.derived
         if session.program is not self.session.program:
-            self.guided = self._unit_mentioned = self._unit_settled = False
+            self.guided = self._unit_mentioned = self._unit_settled = self.part_is_drawn = False
             self.clear_notice()
         self.session = self.displayed = session
         if not same:

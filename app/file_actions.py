@@ -132,6 +132,7 @@ class FileActions(DerivationActions):
         self.displayed = session
         self._advise_later()
         if session.program is not before.program:
+            self.part_is_drawn = self.part_is_drawn and any(block.segments for block in session.program.blocks)
             self._derive(session.program)
         elif session.place.block != before.place.block:
             self._make_table()

@@ -688,7 +688,9 @@ class ImportScreen(BaseScreen):
         except DoesNotFitError as error:
             self.say(str(error), Tone.ERROR)
             return
+        drawn = self.host.part_is_drawn or not any(block.segments for block in program.blocks)
         if self.host.apply(made, f"IMPORT {self.path.name}"):
+            self.host.part_is_drawn = drawn
             numbers = {contour.number for contour in contours}
             self._show_taken(made, blocks, [] if self.listed is None else frame_notes(self.listed, numbers))
 

@@ -20,7 +20,7 @@ from core.pipeline.unit_question import unit_question
 from core.program.model import Block, CutterComp, Number, Program, Tool
 from core.units import Unit, sentence
 from tests.app.widget_pilot import Operator
-from tests.core.program.parts import line, program
+from tests.core.program.parts import arc, line, program
 
 LARGE = "The tool is 0.5000 across, more than half of the part's smaller side, 0.9000. The program is in INCH."
 GOUGED = "CUTCOMP LOOKAHEAD 3 does not gouge but leaves 0.9000 uncut."
@@ -54,6 +54,16 @@ def test_a_tool_larger_than_half_the_smaller_side_asks_for_the_unit() -> None:
 )
 def test_a_very_small_part_asks_for_the_unit(part: Program, text: str) -> None:
     assert question(part) == text
+
+
+def test_a_tool_that_fits_into_a_hole_asks_nothing() -> None:
+    """6 mm in a hole of 8 mm is ordinary; around a boss of that size it may be a unit mixed up."""
+    circle = arc("CCW", x_center=0, y_center=0, x_end=4, y_end=0, sweep=360, feed=100)
+    hole = replace(program(circle, x=4.0), tools=(Tool(1, "END MILL", Number(6.0)),))
+    assert question(hole) == ""
+    block = replace(hole.blocks[0], cutter_comp=CutterComp.RIGHT)
+    boss = replace(hole, blocks=(block,))
+    assert question(boss).startswith("INCH or MM? The tool is 6.000 across, more than half")
 
 
 def test_an_open_contour_asks_nothing() -> None:

@@ -153,6 +153,17 @@ async def test_the_contours_are_listed_and_the_chosen_one_is_drawn(tmp_path):
         assert user.importing.picture.heading == "chain 2  HOLE"
 
 
+@pytest.mark.parametrize(("radius", "asks"), [(4.0, False), (2.0, True)])
+async def test_a_drawing_that_names_its_unit_leaves_only_a_tiny_part_in_doubt(tmp_path, radius, asks):
+    """The usual tool of 12 mm is larger than this boss; whether 4 mm are meant, the drawing may not know either."""
+    async with importer(dxf(circle((0.0, 0.0), radius)), tmp_path) as user:
+        await user.press("enter")
+        await user.taken()
+        assert ("INCH or MM?" in user.prompt) == asks
+        await user.press("ctrl+z")
+        assert not user.app.part_is_drawn
+
+
 @pytest.mark.parametrize("size", [(80, 24), (60, 20)])
 async def test_a_long_name_is_cut_in_the_middle_of_the_title(tmp_path, size):
     path = tmp_path / "housing_cover_left_hand_side_final_revision_C7.dxf"
