@@ -4,15 +4,31 @@ from __future__ import annotations
 
 from typing import Final
 
+from textual import work
+
+from app.documents.questions import GO_BACK, Answer
 from app.screens.base import BaseScreen
-from core.program.edit import FormPlace, copy_block, delete_block, insert_block, move_block
-from core.program.model import Number, Program
+from app.screens.dialogs import Question
+from app.screens.field_texts import shown_text
+from core.program.edit import (
+    SHARED_FIELDS,
+    FormPlace,
+    Refused,
+    copy_block,
+    delete_block,
+    insert_block,
+    move_block,
+    share_values,
+)
+from core.program.fields import Form, field_of
+from core.program.model import Number, Program, Unread
 from core.units import Kind, show
 
 COPY_AND_MOVE: Final = (
     ("COPY BLOCK", "screen.copy_block", "C on PROGRAM"),
     ("MOVE BLOCK UP", "screen.move_block(-1)", "Ctrl+Up on PROGRAM"),
     ("MOVE BLOCK DOWN", "screen.move_block(1)", "Ctrl+Down on PROGRAM"),
+    ("SAME VALUES IN ALL BLOCKS", "screen.share_values", "tool, depths, feeds of this block"),
 )
 INSERT_AND_DELETE: Final = (
     ("INSERT BLOCK AFTER", "screen.insert_block", "F2 on PROGRAM"),
@@ -69,6 +85,38 @@ class BlockActions(BaseScreen):
         elif self.host.apply(move_block(program, at, to), f"MOVE BLOCK {at} {'UP' if by < 0 else 'DOWN'}"):
             self.host.move(FormPlace(to, segment))
             self.say(f"Block {at} is block {to} now.")
+
+    @work(exclusive=True, group="question")
+    async def action_share_values(self) -> None:
+        """Give the tool, depths, feeds and coolant of this block to all others, after a question."""
+        program, at = self._taken(), self.chosen
+        if program is None:
+            return
+        every, blank = (share_values(program, at, only_blank=only_blank) for only_blank in (False, True))
+        if isinstance(every, Refused):
+            self.say(every.text)
+            return
+        answers = [Answer("ALL", "replaces what they have")]
+        if not isinstance(blank, Refused):
+            answers.append(Answer("BLANK", "only what they leave blank"))
+        lines = [f"Into all other blocks, from block {at}:", shared_words(program, at)]
+        title = "SAME VALUES IN ALL BLOCKS"
+        word = await self.app.push_screen_wait(Question(title, lines, answers, GO_BACK))
+        if word != GO_BACK and self.host.apply(every if word == "ALL" else blank, title):
+            which = "All blocks" if word == "ALL" else "The blank fields of all blocks"
+            self.notify(f"{which} are as in block {at}. Ctrl+Z takes it back.", timeout=5)
+
+
+def shared_words(program: Program, at: int) -> str:
+    """Return the fields of block `at` that all blocks can have, each with its value."""
+    block, words = program.blocks[at - 1], []
+    for name in SHARED_FIELDS:
+        field, value = field_of(Form.START, name), getattr(block, name)
+        if value is None:
+            words.append(f"{field.label} blank")
+        elif not isinstance(value, Unread):
+            words.append(f"{field.label} {shown_text(value, field, program.unit)}")
+    return ", ".join(words)
 
 
 def depths_kept(program: Program, at: int) -> str:

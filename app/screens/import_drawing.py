@@ -67,6 +67,9 @@ Result = TypeVar("Result")
 SAME_START: Final = 1e-6
 """Millimeters within which a start counts as the usual one."""
 
+NAME_WIDTH: Final = 26
+"""Characters of a file's name in a message."""
+
 MAX_NOTES: Final = 2
 """Most notes about imported contours, or about fitted arcs, that one message shows."""
 
@@ -700,7 +703,10 @@ class ImportScreen(BaseScreen):
         self.host.move(FormPlace(first))
         self.host.action_contour()
         which = f"blocks {first}-{len(made.blocks)}" if len(blocks) > 1 else f"block {first}"
-        self.app.notify(f"Took {which} from {self.path.name}. Ctrl+Z takes it back.", timeout=4)
+        text = f"Took {which} from {cut_in_middle(self.path.name, NAME_WIDTH)}. Ctrl+Z takes it back."
+        if len(blocks) > 1 and blocks[0].block.z_bottom is None:
+            text += " Depths typed in one block go into all of them with Ctrl+K SAME VALUES."
+        self.app.notify(text, timeout=4 if len(blocks) == 1 else 8)
         notes = [*frames, *(note for block in blocks for note in block.notes)]
         if notes:
             rest = f" {len(notes) - MAX_NOTES} more notes." if len(notes) > MAX_NOTES else ""

@@ -249,6 +249,32 @@ def insert_block(program: Program, at: int) -> Edited:
     return replace(program, blocks=(*before, new_block(replace(program, blocks=before)), *after))
 
 
+SHARED_FIELDS: Final = (
+    "tool", "finish_tool", "z_start", "z_bottom", "plunge_feed", "speed", "peck_depth", "coolant"
+)  # fmt: skip
+"""The fields of START that `share_values` copies: those that are not about the shape of the contour."""
+
+
+def share_values(program: Program, at: int, *, only_blank: bool) -> Edited:
+    """Give the tool, depths, feeds and coolant of block `at` to every other block, or to its blank fields only.
+
+    Text that cannot be read is not copied.
+    """
+    if refusal := _absent(program, FormPlace(at)):
+        return refusal
+    if len(program.blocks) == 1:
+        return Refused("There is no other block.")
+    given = {name: getattr(program.blocks[at - 1], name) for name in SHARED_FIELDS}
+    given = {name: value for name, value in given.items() if not isinstance(value, Unread)}
+    blocks = []
+    for block in program.blocks:
+        taken = {name: value for name, value in given.items() if not only_blank or getattr(block, name) is None}
+        blocks.append(changed(block, taken))
+    if tuple(blocks) == program.blocks:
+        return Refused(f"The other blocks have the tool, depths and feeds of block {at} already.")
+    return replace(program, blocks=tuple(blocks))
+
+
 def copy_block(program: Program, at: int) -> Edited:
     """Insert a copy of a block after it."""
     if refusal := _absent(program, FormPlace(at)):

@@ -28,7 +28,7 @@ from app.widgets.status import Prompt
 from core.importing.contours import Contour, ContourList
 from core.program.edit import FormPlace
 from core.program.file.write import dumps
-from core.program.model import CutterComp
+from core.program.model import CutterComp, Number
 from core.units import Unit
 from tests.app.widget_pilot import SURROUNDINGS, Operator
 from tests.core.importing.drawings import circle, circle_of_lines, dxf, line, square
@@ -151,6 +151,30 @@ async def test_the_contours_are_listed_and_the_chosen_one_is_drawn(tmp_path):
         assert title == "d14-layers.dxf  MM ($INSUNITS)  layers 2 of 2"
         await user.press("down")
         assert user.importing.picture.heading == "chain 2  HOLE"
+
+
+async def test_the_depths_typed_in_one_block_are_taken_into_all_others(tmp_path):
+    async with importer(DATA / "d14-layers.dxf", tmp_path) as user:
+        await user.press("space", "down", "space", "enter")
+        await user.taken()
+        await user.left()
+        for field, text in (("z_bottom", "-5"), ("plunge_feed", "100"), ("speed", "2000")):
+            user.app.move(FormPlace(1), field)
+            await user.settle()
+            await user.press(f"'{text}", "enter")
+        typed = user.session.program
+        assert typed.blocks[1].z_bottom is None
+        await user.press("ctrl+k", "'same values", "enter")
+        await user.until(lambda: isinstance(user.app.screen, Question))
+        assert "Z BOTTOM -5.000, PLUNGE FEED 100.0, SPEED (RPM) 2000" in user.question.lines[1]
+        await user.press("b")
+        await user.left()
+        first, second = user.session.program.blocks
+        assert (second.z_bottom, second.plunge_feed, second.speed) == (Number(-5.0), Number(100.0), Number(2000.0))
+        assert first == typed.blocks[0]
+        assert second.segments == typed.blocks[1].segments
+        await user.press("ctrl+z")
+        assert user.session.program == typed
 
 
 @pytest.mark.parametrize(("radius", "asks"), [(4.0, False), (2.0, True)])

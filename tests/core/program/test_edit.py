@@ -16,6 +16,7 @@ from core.program.model import (
     ArcSegment,
     BlendSegment,
     Block,
+    Coolant,
     CutterComp,
     Direction,
     LineSegment,
@@ -250,6 +251,33 @@ def test_insert_block_copies_the_tool_of_the_block_before():
     ]
     assert edit.insert_block(part, 4) == Refused("Block 4 does not exist; the last is 2.")
     assert edit.insert_block(part, 0) == Refused("Block 0 does not exist; the last is 2.")
+
+
+def test_the_values_of_a_block_are_shared_with_the_others():
+    shape = replace(BLOCK, z_bottom=None, plunge_feed=None, x_start=Number(9.0), cutter_comp=CutterComp.RIGHT)
+    first = replace(
+        BLOCK, tool=Number(3.0), z_bottom=Number(-5.0), speed=Unread("1..2", "is not a number"), coolant=Coolant.FLOOD
+    )
+    given = Program(blocks=(shape, first, replace(shape, z_bottom=Number(-1.0))))
+    one, source, three = accepted(edit.share_values(given, 2, only_blank=False)).blocks
+    assert source == first
+    assert (
+        one
+        == three
+        == replace(shape, tool=Number(3.0), z_bottom=Number(-5.0), coolant=Coolant.FLOOD, plunge_feed=first.plunge_feed)
+    )
+    one, source, three = accepted(edit.share_values(given, 2, only_blank=True)).blocks
+    assert source == first
+    kept = replace(shape, plunge_feed=first.plunge_feed, coolant=Coolant.FLOOD)
+    assert (one, three) == (replace(kept, z_bottom=Number(-5.0)), replace(kept, z_bottom=Number(-1.0)))
+
+
+def test_sharing_values_that_all_blocks_have_is_refused():
+    assert edit.share_values(Program(blocks=(BLOCK,)), 1, only_blank=False) == Refused("There is no other block.")
+    same = Program(blocks=(BLOCK, replace(BLOCK, x_start=Number(2.0))))
+    refusal = edit.share_values(same, 1, only_blank=False)
+    assert refusal == Refused("The other blocks have the tool, depths and feeds of block 1 already.")
+    assert isinstance(edit.share_values(same, 3, only_blank=False), Refused)
 
 
 def test_blocks_are_copied_moved_and_deleted():
