@@ -286,6 +286,16 @@ class ChooseLine(Dialog[str]):
     def _selected(self, event: OptionList.OptionSelected) -> None:
         self.dismiss(event.option_id or "")
 
+    # in the frame, since the box may cover the prompt
+
+    @on(OptionList.OptionHighlighted)
+    def _moved(self) -> None:
+        self.query_one("#question").border_subtitle = ""
+
+    @on(NamedRows.Unknown)
+    def _unknown(self, event: NamedRows.Unknown) -> None:
+        self.query_one("#question").border_subtitle = f"No line begins with {event.letters}"
+
 
 class ChooseSeveral(Dialog["frozenset[str] | None"]):
     """A list for choosing several rows: Space marks, Enter takes the marked rows; Esc and F8 return None.

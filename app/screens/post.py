@@ -93,11 +93,16 @@ class PostScreen(EntryScreen):
     def _control_chosen(self, event: OptionList.OptionHighlighted) -> None:
         if event.option_id is not None and event.option_id != self.choice:
             self.choice = event.option_id
+            self.clear_notice()
             self._make(self.current_session.program)
 
     @on(OptionList.OptionSelected, "#post-controls")
     def _control_taken(self) -> None:
         self.query_one("#entry").focus()
+
+    @on(NamedRows.Unknown)
+    def _control_unknown(self, event: NamedRows.Unknown) -> None:
+        self.say(f"No control begins with {event.letters}. Up, down or letters choose, Enter goes back to the name.")
 
     @on(Input.Changed, "#entry")
     def _name_changed(self) -> None:

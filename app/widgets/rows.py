@@ -10,6 +10,7 @@ from rich.segment import Segment
 from rich.style import Style
 from textual import events
 from textual.content import Content
+from textual.message import Message
 from textual.strip import Strip
 from textual.widgets import DataTable, OptionList
 from textual.widgets.option_list import Option
@@ -29,6 +30,8 @@ class TypedLetters:
 
     letters: str = ""
     last: float = 0.0
+    unknown: str = ""
+    """The letters, if no name begins with them."""
 
     def row(self, event: events.Key, names: Sequence[tuple[str, ...]], here: int) -> int | None:
         """Return that row, `here` if there is none; None for a key that is not part of a name.
@@ -39,13 +42,14 @@ class TypedLetters:
         together = self.letters if event.time - self.last < LETTERS_TOGETHER else ""
         if not (letter.isalnum() or (together and letter and letter in "-_.: ")):
             return None
-        self.last = event.time
+        self.last, self.unknown = event.time, ""
         for letters, step in ((together + letter, 0 if together else 1), (letter, 1)):
             rows = ((here + step + more) % len(names) for more in range(len(names)))
             row = next((row for row in rows if any(name.startswith(letters) for name in names[row])), None)
             if row is not None:
                 self.letters = letters
                 return row
+        self.unknown = together + letter
         return here
 
 
@@ -100,6 +104,12 @@ class OptionRows(OptionList):
 class NamedRows(OptionRows):
     """A list in which letters and digits move the cursor to the next option whose text or id begins with them."""
 
+    @dataclass
+    class Unknown(Message):
+        """Letters were typed with which no option begins."""
+
+        letters: str
+
     def __init__(self, *options: Option, id: str) -> None:
         super().__init__(*options, id=id)
         self._typed = TypedLetters()
@@ -111,6 +121,8 @@ class NamedRows(OptionRows):
         if row is not None and names:
             event.stop()
             self.highlighted = row
+            if self._typed.unknown:
+                self.post_message(self.Unknown(self._typed.unknown.upper()))
 
 
 def control_rows(choices: Sequence[ControlChoice]) -> list[Option]:

@@ -341,6 +341,19 @@ async def test_a_letter_jumps_to_the_control_whose_name_begins_with_it(tmp_path)
         assert user.app.settings.control == "threeblock"
 
 
+async def test_letters_that_begin_no_control_are_said_to(tmp_path):
+    async with at_proof(tmp_path) as user:
+        await user.press("c", "q")
+        box = user.app.screen.query_one("#question")
+        assert box.border_subtitle == "No line begins with Q"
+        await user.press("h")
+        assert box.border_subtitle == ""
+        await user.press("a", "x")
+        assert box.border_subtitle == "No line begins with HAX"
+        await user.press("down")
+        assert box.border_subtitle == ""
+
+
 def test_the_last_chosen_control_is_used_for_the_next_program():
     text = NcText.read(PROGRAM)
     assert likely_control(text, "threeblock") == "threeblock"

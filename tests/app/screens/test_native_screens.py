@@ -200,6 +200,15 @@ async def test_a_gouge_is_posted_only_after_the_override_phrase(tmp_path, monkey
         assert "OVERRIDDEN" in (tmp_path / "part.nc").read_text()
 
 
+async def test_letters_that_begin_no_control_are_said_to_on_post(user: Operator):
+    await run(user, "app.post")
+    await user.press("f2", "q")
+    assert user.prompt.startswith("No control begins with Q.")
+    await user.press("h")
+    await user.finish()
+    assert user.prompt.startswith("haas:a, ")
+
+
 async def test_a_reason_too_long_for_the_prompt_is_pointed_to(user: Operator):
     """The prompt has two lines; the findings above it hold the whole sentence."""
     climbing = program(line(x_end=50.0, y_end=0.0, z_end=-0.125, feed=90.0))
