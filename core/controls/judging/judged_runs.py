@@ -9,6 +9,7 @@ from typing import Final
 import numpy as np
 
 from core.controls.control_run import ControlRun, Stretch
+from core.controls.judging.contours_and_leads import split_where_it_closes
 from core.controls.judging.crossing_contours import cuts_of_other_contours
 from core.controls.judging.judged_contour import (
     JudgedContour,
@@ -24,13 +25,12 @@ from core.controls.judging.moves_above import Divided, divided, heights_above
 from core.controls.judging.rapids_at_depth import CutContour, highest_cut, moves_through
 from core.controls.judging.repeated_passes import path_key, without_repeats
 from core.controls.judging.standing_walls import standing_walls
-from core.controls.judging.stretch_paths import closed_passes_of_stretch
-from core.controls.moves import Moves
+from core.controls.judging.stretch_paths import closed_passes_of, programmed_surface
 from core.geometry.nearby import BoxTree, near_pairs
 from core.geometry.path import Path, Rows
 from core.progress import Progress, silent
 from core.progress import part as part_of
-from core.units import Kind, Unit, decimals_shown, to_mm
+from core.units import Kind, decimals_shown, to_mm
 from core.verify.surface import Leads
 
 JUDGING_SHARE: Final = 0.8
@@ -45,7 +45,9 @@ def judge_run(run: ControlRun, progress: Progress = silent) -> tuple[JudgedConto
     """
     if run.endless:
         return ()
-    least, results, heights = smallest_gouge(run.unit), list[JudgedContour](), heights_above(run)
+    # a shallower gouge than half the last digit that a control shows is none
+    least = to_mm(0.5 * 10.0 ** -decimals_shown(Kind.LENGTH, run.unit), run.unit)
+    results, heights = list[JudgedContour](), heights_above(run)
     judging, comparing = part_of(progress, 0.0, JUDGING_SHARE), part_of(progress, JUDGING_SHARE, 1.0)
     for index, stretch in enumerate(run.stretches):
         judging(index / len(run.stretches))
@@ -65,11 +67,6 @@ def judge_run(run: ControlRun, progress: Progress = silent) -> tuple[JudgedConto
         others = tuple(cut for cut in cuts_of_other_contours(run, contours, comparing) if cut.gouge.depth >= least)
         results[0] = replace(results[0], uncompensated_cuts=cuts, cuts_into_others=others)
     return tuple(results)
-
-
-def smallest_gouge(unit: Unit) -> float:
-    """Return the millimeters below which a gouge is ignored: half the last digit a control shows in this unit."""
-    return to_mm(0.5 * 10.0 ** -decimals_shown(Kind.LENGTH, unit), unit)
 
 
 def _without_shallow(result: JudgedContour, least: float) -> JudgedContour:
@@ -122,7 +119,8 @@ def _judge_pieces(run: ControlRun, stretch: Stretch, parted: Divided) -> list[Ju
     judged = [judge_stretch(run, piece) for piece in parted.pieces]
     surfaces = {path_key(result.surface): result.surface for results in judged for result in results}
     contours = Contours.of(list(surfaces.values()))
-    passes = [each for piece in parted.pieces for each in closed_passes_of_stretch(piece)]
+    split = [(piece, *split_where_it_closes(programmed_surface(piece))) for piece in parted.pieces]
+    passes = [each for piece, surface, rows in split for each in closed_passes_of(piece, surface, rows)]
     cut_away = {
         path_key(without_repeats(wall.path)): wall for wall in standing_walls(passes, stretch.side) if wall.cut_away_by
     }
@@ -146,18 +144,14 @@ def _judge_pieces(run: ControlRun, stretch: Stretch, parted: Divided) -> list[Ju
         unjudged += cuts.unjudged
     results = with_unjudged([replace(result, cut_away=()) for results in judged for result in results], unjudged)
     results[0] = replace(results[0], cut_away=tuple(cut_away.values()))
-    passing = (*parted.links, *(lead for lead in parted.leads if _passes_over(run, stretch, lead, contours)))
-    if passing:
+    # a lead passes over contours that it would cut if it were as low as they are
+    leads = ((lead, lead.path()) for lead in parted.leads)
+    over = (lead for lead, path in leads if cuts_into(run, stretch, path, contours.near(path, stretch.radius)).gouges)
+    if passing := (*parted.links, *over):
         lines = sorted({line for moves in passing for line in moves.lines[1:].tolist()})
         lowest = min(float(moves.points[:, 2].min()) for moves in passing)
         results[0] = replace(results[0], passed_over=PassedOver(lowest, tuple(lines)))
     return results
-
-
-def _passes_over(run: ControlRun, stretch: Stretch, lead: Moves, contours: Contours) -> bool:
-    """True if a lead would cut contours if it were as low as they are."""
-    path = lead.path()
-    return bool(cuts_into(run, stretch, path, contours.near(path, stretch.radius)).gouges)
 
 
 def deepest_gouge(results: tuple[JudgedContour, ...]) -> tuple[float, int | None]:

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
-from itertools import accumulate, pairwise
+from itertools import accumulate, groupby, pairwise
 
 import numpy as np
 
@@ -26,8 +26,8 @@ from core.controls.judging.corner_loops import without_corner_loops
 from core.controls.judging.judged_contour import JudgedContour, most_uneven_arc, with_gouges, with_unjudged
 from core.controls.judging.judged_walls import accepted_difference, cuts_below, cuts_into, judge_wall
 from core.controls.judging.repeated_passes import path_key, without_repeats
-from core.controls.judging.standing_walls import ClosedPass, StandingWall, closed_passes_of, standing_walls, walls_of
-from core.controls.judging.stretch_paths import center_path, programmed_surface, surface_heights
+from core.controls.judging.standing_walls import ClosedPass, StandingWall, standing_walls, walls_of
+from core.controls.judging.stretch_paths import center_path, closed_passes_of, programmed_surface
 from core.geometry.path import Path, joined
 from core.verify.judge import judge
 from core.verify.surface import Leads
@@ -47,11 +47,6 @@ class _Part:
     rows: RowRange
     contours: Mapping[RowRange, frozenset[float]]
 
-    def closed_passes(self) -> list[ClosedPass]:
-        """Return the passes of its closed contours."""
-        heights = surface_heights(self.stretch, self.surface)
-        return closed_passes_of(self.surface, list(self.contours), heights, self.stretch.radius)
-
 
 def judge_stretch(run: ControlRun, stretch: Stretch) -> list[JudgedContour]:
     """Return the verdicts on a stretch, for each part with the side and radius in force there.
@@ -69,19 +64,18 @@ def judge_stretch(run: ControlRun, stretch: Stretch) -> list[JudgedContour]:
     contours = contours_of(surface)
     parts = _parts(stretch, surface, contours)
     results, unjudged = list[JudgedContour](), list[JudgedContour]()
-    for index, part in enumerate(parts):
-        same_side = _same_side(parts, index)
-        side_changes = index > 0 and part is same_side[0]
-        if len(same_side) == 1:
-            judged = _judge_part(run, part)
-        else:
-            passes = [each for other in same_side for each in other.closed_passes()]
+    for _, group in groupby(parts, key=lambda part: part.stretch.side):
+        same_side = list(group)
+        others = _clipped(contours, (same_side[0].rows[0], same_side[-1].rows[1]))
+        several = same_side if len(same_side) > 1 else []
+        passes = [each for part in several for each in closed_passes_of(part.stretch, part.surface, part.contours)]
+        for part in same_side:
             judged = _judge_part(run, part, passes)
-            others = _clipped(contours, (same_side[0].rows[0], same_side[-1].rows[1]))
-            judged[0], not_judged = _with_other_parts(run, judged[0], surface, others, part.rows, passes)
-            unjudged += not_judged
-        judged[0] = replace(judged[0], side_changes=side_changes)
-        results += judged
+            if several:
+                judged[0], not_judged = _with_other_parts(run, judged[0], surface, others, part.rows, passes)
+                unjudged += not_judged
+            side_changes = bool(results) and part is same_side[0]
+            results += [replace(judged[0], side_changes=side_changes), *judged[1:]]
     return with_unjudged(results, unjudged)
 
 
@@ -105,17 +99,6 @@ def _parts(stretch: Stretch, surface: Path, contours: Sequence[RowRange]) -> lis
             inner = _contours_within(contours, rows, open_lines)
         parts.append(_Part(part, part_surface, rows, inner))
     return parts
-
-
-def _same_side(parts: Sequence[_Part], index: int) -> Sequence[_Part]:
-    """Return the parts around a part up to where the side changes."""
-    begin = end = index
-    side = parts[index].stretch.side
-    while begin and parts[begin - 1].stretch.side is side:
-        begin -= 1
-    while end < len(parts) and parts[end].stretch.side is side:
-        end += 1
-    return parts[begin:end]
 
 
 def _clipped(contours: Sequence[RowRange], rows: RowRange) -> list[RowRange]:
@@ -211,7 +194,7 @@ def _judge_part(run: ControlRun, part: _Part, passes: Sequence[ClosedPass] = ())
         results += judged([walls[len(results)]], alone=len(walls) == 1)
     if results[-1].verdict.gouges:
         contours = [between_lead_arcs(surface, each, stretch, cut_short=run.stops_within(stretch)) for each in rows]
-        own_passes = closed_passes_of(surface, contours, surface_heights(stretch, surface), stretch.radius)
+        own_passes = closed_passes_of(stretch, surface, contours)
         standing = walls_of(standing_walls(passes or own_passes, stretch.side), own_passes)
         cut_away = tuple(wall for wall in standing if wall.cut_away_by)
         if cut_away:

@@ -22,7 +22,6 @@ import shapely
 from shapely import STRtree
 from shapely.geometry import Polygon
 
-from core.controls.judging.contours_and_leads import RowRange, closed_passes, is_closed
 from core.controls.judging.repeated_passes import PathKey, path_key
 from core.geometry.path import Floats, Path, chords_of, joined
 from core.geometry.piece import Side
@@ -48,6 +47,14 @@ class ClosedPass:
     low: float
     high: float
     radius: float
+
+    @staticmethod
+    def of(path: Path, heights: Floats, radius: float) -> ClosedPass:
+        """Return the pass of a closed path; `heights` (n, 2) has those of both ends of each piece."""
+        chords = chords_of(path, MAX_CHORD_ERROR)
+        region = Polygon(chords) if len(chords) >= MIN_POINTS else Polygon()
+        region = region if region.is_valid and region.area > 0.0 else Polygon()
+        return ClosedPass(path, region, float(heights.min()), float(heights.max()), radius)
 
     @property
     def shape(self) -> PathKey:
@@ -84,29 +91,6 @@ class StandingWall:
         return float(self.path.numbers[0]), float(self.path.numbers[-1])
 
 
-def closed_passes_of(path: Path, contours: Sequence[RowRange], heights: Floats, radius: float) -> list[ClosedPass]:
-    """Return the passes of the closed contours; `heights` (n, 2) has those of both ends of each piece of the path."""
-    return [
-        ClosedPass(
-            path.part(first, last),
-            _region(path.part(first, last)),
-            float(heights[first:last].min()),
-            float(heights[first:last].max()),
-            radius,
-        )
-        for contour in contours
-        if is_closed(path, contour)
-        for first, last in closed_passes(path, contour)
-    ]
-
-
-def _region(path: Path) -> Polygon:
-    """Return what a closed run of pieces encloses; an empty region if it crosses itself."""
-    chords = chords_of(path, MAX_CHORD_ERROR)
-    region = Polygon(chords) if len(chords) >= MIN_POINTS else Polygon()
-    return region if region.is_valid and region.area > 0.0 else Polygon()
-
-
 def walls_of(walls: Sequence[StandingWall], passes: Sequence[ClosedPass]) -> list[StandingWall]:
     """Return the walls that these passes make, without what other passes of the same shapes add to their paths."""
     paths = defaultdict[PathKey, list[Path]](list)
@@ -130,18 +114,43 @@ class _Shape:
         shapely.prepare([region, grown])
         return _Shape(rows, region, grown)
 
-    def runs_as(self, other: _Shape) -> bool:
-        """True if both passes enclose something and run the same way around."""
-        empty = self.region.is_empty or other.region.is_empty
-        return not empty and self.region.exterior.is_ccw is other.region.exterior.is_ccw
-
     def runs_inside(self, side: Side) -> bool:
         """True if the cutter runs inside."""
         return bool(self.region.exterior.is_ccw) is (side is Side.LEFT)
 
-    def contains(self, inner: _Shape) -> bool:
-        """True if its region contains a smaller one; both may share walls."""
-        return bool(self.region.area > inner.region.area and self.grown.contains(inner.region))
+    def nested(self, other: _Shape, side: Side) -> tuple[_Shape, _Shape]:
+        """Return this wall and a pass behind it, the inner one first."""
+        return (self, other) if self.runs_inside(side) else (other, self)
+
+    def has_behind(self, other: _Shape, side: Side) -> bool:
+        """True if another pass runs the same way around and lies in the material of this wall, or on the wall."""
+        if self.region.is_empty or other.region.is_empty:
+            return False
+        inner, outer = self.nested(other, side)
+        same_way = self.region.exterior.is_ccw is other.region.exterior.is_ccw
+        return bool(same_way and outer.region.area > inner.region.area and outer.grown.contains(inner.region))
+
+    def shares_walls(self, other: _Shape, side: Side) -> bool:
+        """True if a pass behind the wall shares walls with it."""
+        inner, outer = self.nested(other, side)
+        return not outer.region.contains(inner.grown)
+
+    def is_close(self, other: _Shape, radius: float, side: Side) -> bool:
+        """True if a pass behind the wall shares no wall with it, and is nowhere farther than its cutter's diameter."""
+        reach = 2.0 * (radius + MAX_CHORD_ERROR)
+        if self.shares_walls(other, side):
+            return False
+        if self.runs_inside(side):
+            return bool(self.region.contains(other.within_reach(-reach)))
+        return bool(other.within_reach(reach).contains(self.region))
+
+    def is_wide(self, other: _Shape, radius: float, side: Side) -> bool:
+        """True if a pass behind the wall shares no wall with it, or is somewhere farther than its cutter's radius.
+
+        The distance is measured square to the walls.
+        """
+        inner, outer = self.nested(other, side)
+        return not (self.shares_walls(other, side) and inner.within_reach(radius, "mitre").contains(outer.region))
 
     def within_reach(self, distance: float, corners: Literal["round", "mitre"] = "round") -> Polygon:
         """Return its region grown by a distance, shrunk by a negative one."""
@@ -163,64 +172,18 @@ def standing_walls(passes: Sequence[ClosedPass], side: Side) -> list[StandingWal
         path = joined([passes[row].path for row in shape.rows])
         low = min(passes[row].low for row in shape.rows)
         near = [shapes[index] for index in sorted(tree.query(shape.region).tolist())]
-        shapes_behind = [other for other in near if shape.runs_as(other) and _is_behind(shape, other, side)]
-        close_passes = [
-            row for other in shapes_behind for row in other.rows if _is_close(shape, other, passes[row].radius, side)
-        ]
-        wide_passes = [
-            row for other in shapes_behind for row in other.rows if _is_wide(shape, other, passes[row].radius, side)
-        ]
-        steps = [passes[row] for row in wide_passes if passes[row].high > low + ON_PATH]
-        cutting_passes = [_lowest([*steps, *_cutting(row, passes, close_passes)]) for row in shape.rows]
-        highest = (
-            None
-            if None in cutting_passes
-            else max((each for each in cutting_passes if each), key=lambda other: other.high)
-        )
-        if highest is None:
+        behind = [(other, row) for other in near if shape.has_behind(other, side) for row in other.rows]
+        close = [row for other, row in behind if shape.is_close(other, passes[row].radius, side)]
+        above = [(other, passes[row]) for other, row in behind if passes[row].high > low + ON_PATH]
+        steps = [step for other, step in above if shape.is_wide(other, step.radius, side)]
+        lowest_cuts = list[ClosedPass]()
+        for row in shape.rows:
+            # a close pass cuts the wall away if it comes later, or from above
+            later = [passes[index] for index in close if index > row or passes[index].high > passes[row].low + ON_PATH]
+            lowest_cuts += sorted((*steps, *later), key=lambda cut: cut.high)[:1]
+        if len(lowest_cuts) < len(shape.rows):
             walls.append(StandingWall(path, low, shape=key))
         else:
+            highest = max(lowest_cuts, key=lambda cut: cut.high)
             walls.append(StandingWall(path, low, highest.high, highest.numbers, key))
     return walls
-
-
-def _cutting(row: int, passes: Sequence[ClosedPass], close: Sequence[int]) -> list[ClosedPass]:
-    """Return which of the passes `close` behind the wall of pass `row` cut it away, later or from above."""
-    return [passes[index] for index in close if index > row or passes[index].high > passes[row].low + ON_PATH]
-
-
-def _lowest(passes: Sequence[ClosedPass]) -> ClosedPass | None:
-    """Return the lowest of passes; None without one."""
-    return min(passes, key=lambda each: each.high, default=None)
-
-
-def _is_behind(wall: _Shape, other: _Shape, side: Side) -> bool:
-    """True if the other pass lies in the material of the wall, or on the wall."""
-    return other.contains(wall) if wall.runs_inside(side) else wall.contains(other)
-
-
-def _share_walls(wall: _Shape, other: _Shape, side: Side) -> bool:
-    """True if a pass behind the wall shares walls with it."""
-    inner, outer = (wall, other) if wall.runs_inside(side) else (other, wall)
-    return not outer.region.contains(inner.grown)
-
-
-def _is_close(wall: _Shape, other: _Shape, radius: float, side: Side) -> bool:
-    """True if a pass behind the wall shares no wall with it, and is nowhere farther than its cutter's diameter."""
-    if _share_walls(wall, other, side):
-        return False
-    reach = 2.0 * (radius + MAX_CHORD_ERROR)
-    if wall.runs_inside(side):
-        return bool(wall.region.contains(other.within_reach(-reach)))
-    return bool(other.within_reach(reach).contains(wall.region))
-
-
-def _is_wide(wall: _Shape, other: _Shape, radius: float, side: Side) -> bool:
-    """True if a pass behind the wall shares no wall with it, or is somewhere farther than its cutter's radius.
-
-    The distance is measured square to the walls.
-    """
-    if not _share_walls(wall, other, side):
-        return True
-    inner, outer = (wall, other) if wall.runs_inside(side) else (other, wall)
-    return not inner.within_reach(radius, "mitre").contains(outer.region)

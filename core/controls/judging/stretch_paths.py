@@ -2,15 +2,16 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterable
 from dataclasses import replace
 
 import numpy as np
 
 from core.controls.control_run import ControlRun, Stretch
-from core.controls.judging.contours_and_leads import split_where_it_closes
+from core.controls.judging.contours_and_leads import RowRange, closed_passes, is_closed, split_where_it_closes
 from core.controls.judging.moves_above import Z_COLUMN
 from core.controls.judging.repeated_passes import without_repeats
-from core.controls.judging.standing_walls import ClosedPass, closed_passes_of
+from core.controls.judging.standing_walls import ClosedPass
 from core.controls.moves import Moves, Plane
 from core.geometry.path import Floats, Path, joined
 
@@ -40,10 +41,15 @@ def surface_heights(stretch: Stretch, surface: Path) -> Floats:
     return np.column_stack((heights[rows - 1], heights[rows]))
 
 
-def closed_passes_of_stretch(stretch: Stretch) -> list[ClosedPass]:
-    """Return the closed passes of a stretch of one side and radius."""
-    surface, contours = split_where_it_closes(programmed_surface(stretch))
-    return closed_passes_of(surface, contours, surface_heights(stretch, surface), stretch.radius)
+def closed_passes_of(stretch: Stretch, surface: Path, contours: Iterable[RowRange]) -> list[ClosedPass]:
+    """Return the passes of the closed contours on the surface of a stretch of one side and radius."""
+    heights = surface_heights(stretch, surface)
+    return [
+        ClosedPass.of(surface.part(first, last), heights[first:last], stretch.radius)
+        for contour in contours
+        if is_closed(surface, contour)
+        for first, last in closed_passes(surface, contour)
+    ]
 
 
 def center_path(run: ControlRun, stretch: Stretch) -> Path:
