@@ -59,11 +59,11 @@ def _stretch(moves: Moves, stretch: Stretch) -> list[Finding]:
         return findings
     entry, leave = _entry(stretch), _exit(moves, stretch, contour)
     if not stretch.led_in:
-        findings += _applying(entry, contour)
+        findings += _turning(entry, contour, on=True)
     findings += _clear("H2", entry.start, contour, stretch, entry.line)
     if leave is not None:
         if not stretch.led_out:
-            findings += _canceling(leave, contour)
+            findings += _turning(leave, contour, on=False)
         findings += _clear("H6", leave.start, contour.part(0, len(contour) - 1), stretch, int(contour.numbers[-1]))
     return findings
 
@@ -86,37 +86,23 @@ def _exit(moves: Moves, stretch: Stretch, contour: Path) -> PlaneMove | None:
     return PlaneMove(point_of_row(contour.points[-1]), end, line)
 
 
-def _applying(entry: PlaneMove, contour: Path) -> list[Finding]:
-    findings = []
-    if entry.axes != 1:
-        text = "Compensation turns on in a two-axis move; use a one-axis move, X or Y."
-        findings.append(_warn("H4", text, entry.line))
-    if not _one_axis(contour, 0):
-        text = "The move after compensation turns on is not along one axis. Add a one-axis move before it."
-        findings.append(_warn("H3", text, int(contour.numbers[0])))
-    elif not entry.square_to(contour.start_directions[0]):
-        text = "Compensation does not turn on at 90 degrees to the next move; start square to it."
-        findings.append(_warn("H3", text, entry.line))
-    return findings
-
-
-def _canceling(leave: PlaneMove, contour: Path) -> list[Finding]:
-    findings = []
-    if leave.axes != 1:
-        text = "Compensation turns off in a two-axis move; use a one-axis move, X or Y."
-        findings.append(_warn("H8", text, leave.line))
-    if not _one_axis(contour, -1):
-        text = "The last move before compensation turns off is not along one axis. Add a one-axis move after it."
-        findings.append(_warn("H7", text, int(contour.numbers[-1])))
-    elif not leave.square_to(contour.end_directions[-1]):
-        text = "Compensation does not turn off at 90 degrees to the last move; leave square to it."
-        findings.append(_warn("H7", text, leave.line))
-    return findings
-
-
-def _one_axis(contour: Path, piece: int) -> bool:
+def _turning(move: PlaneMove, contour: Path, *, on: bool) -> list[Finding]:
+    """Check H3 and H4 where compensation turns on before the contour, H7 and H8 where it turns off after it."""
+    verb, piece, findings = "on" if on else "off", 0 if on else -1, []
+    if move.axes != 1:
+        text = f"Compensation turns {verb} in a two-axis move; use a one-axis move, X or Y."
+        findings.append(_warn("H4" if on else "H8", text, move.line))
+    which, where, what = ("move after", "before", "next") if on else ("last move before", "after", "last")
+    direction = contour.start_directions[0] if on else contour.end_directions[-1]
     run = contour.ends[piece] - contour.starts[piece]
-    return not contour.turns[piece] and bool(np.min(np.abs(run)) <= JOINED)
+    if contour.turns[piece] or np.min(np.abs(run)) > JOINED:
+        text = f"The {which} compensation turns {verb} is not along one axis. Add a one-axis move {where} it."
+        findings.append(_warn("H3" if on else "H7", text, int(contour.numbers[piece])))
+    elif not move.square_to(direction):
+        how = "start square to it" if on else "leave square to it"
+        text = f"Compensation does not turn {verb} at 90 degrees to the {what} move; {how}."
+        findings.append(_warn("H3" if on else "H7", text, move.line))
+    return findings
 
 
 def _clear(rule: str, at: Point, component: Path, stretch: Stretch, line: int) -> list[Finding]:
