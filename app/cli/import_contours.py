@@ -17,7 +17,8 @@ from app.documents.files import write_text
 from app.documents.programs import empty_program
 from app.session.formats import counted, length, place
 from core.geometry.piece import Side
-from core.importing.contours import Contour, ContourList, fitted_contour, frame_notes, reversed_contour, started_at
+from core.importing.contour import Contour, fitted_contour, reversed_contour, started_at
+from core.importing.contours import ContourList, frame_notes
 from core.importing.drawing import DrawingError, DrawingUnit
 from core.importing.listing import rows_of, sentences, table
 from core.importing.nc_contour import CenterPathTool, NcContour, NcError, nc_blocks

@@ -33,23 +33,25 @@ from core.controls.program_text import quoted
 from core.draw.characters import Mode
 from core.draw.view import View
 from core.geometry.piece import Line, Side
-from core.importing.contours import (
-    FIT_TOLERANCE,
-    MAX_TOLERANCE,
-    Branch,
+from core.importing.contour import (
     Contour,
-    ContourList,
-    ImportOptions,
-    contours_of,
     fit_sentence,
     fitted_contour,
-    frame_notes,
     reversed_contour,
     started_at,
     started_at_corner,
     started_at_side,
     started_at_usual_place,
     traveled_like,
+)
+from core.importing.contours import (
+    FIT_TOLERANCE,
+    MAX_TOLERANCE,
+    Branch,
+    ContourList,
+    ImportOptions,
+    contours_of,
+    frame_notes,
     with_joined,
 )
 from core.importing.drawing import Drawing as ReadDrawing

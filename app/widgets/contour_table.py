@@ -11,7 +11,7 @@ from textual.coordinate import Coordinate
 
 from app.session.formats import length
 from app.widgets.rows import RowTable
-from core.importing.contours import Contour, ContourKind
+from core.importing.contour import Contour, ContourKind
 from core.importing.listing import Row, cells_of
 from core.units import Unit
 

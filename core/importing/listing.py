@@ -18,7 +18,8 @@ from core.draw.scene import Layer, Mark, Scene, Style, Symbol
 from core.geometry.path import Path
 from core.geometry.path_parts import parts_of
 from core.geometry.piece import Line, Piece, Point
-from core.importing.contours import Contour, ContourKind, ContourList, fit_sentence
+from core.importing.contour import Contour, ContourKind, fit_sentence
+from core.importing.contours import ContourList
 from core.importing.drawing import BSpline, Drawing, EllipseArc, Shape, counted
 from core.importing.nesting import box_of
 from core.importing.nodes import SAME_POINT

@@ -9,7 +9,7 @@ from typing import Any, Final, NamedTuple
 
 from core.controls.control_tools import ToolId
 from core.geometry.piece import Piece, Side
-from core.importing.contours import Contour, ContourKind
+from core.importing.contour import Contour, ContourKind
 from core.importing.segments import ImportedBlock, block_of
 from core.program.edit import set_tool
 from core.program.model import ArcSegment, Block, CutterComp, LineSegment, Number, Program, Tool

@@ -12,7 +12,7 @@ from typing import Final
 
 from core.finding import Severity
 from core.geometry.piece import Arc, Line, Piece, Point, Turn
-from core.importing.contours import Contour
+from core.importing.contour import Contour
 from core.program.edit import new_block
 from core.program.fields import LARGEST_LENGTH
 from core.program.model import ArcSegment, Block, CutterComp, Direction, LineSegment, Number, Program, Segment

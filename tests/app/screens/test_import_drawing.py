@@ -25,7 +25,8 @@ from app.session.messages import Tone
 from app.session.session import Session
 from app.widgets.contour_table import ContourTable
 from app.widgets.status import Prompt
-from core.importing.contours import Contour, ContourList
+from core.importing.contour import Contour
+from core.importing.contours import ContourList
 from core.program.edit import FormPlace
 from core.program.file.write import dumps
 from core.program.model import CutterComp, Number

@@ -13,19 +13,17 @@ import shapely
 from core.geometry.path import Path, chords_of
 from core.geometry.piece import Arc, Line, Piece, Turn
 from core.importing.clean_up import LayeredPiece, clean_up
-from core.importing.contours import (
+from core.importing.contour import (
     ContourKind,
-    ContourList,
     fitted_contour,
-    frame_notes,
     joined_open,
     reversed_contour,
     started_at,
     started_at_corner,
     started_at_side,
     traveled_like,
-    with_joined,
 )
+from core.importing.contours import ContourList, frame_notes, with_joined
 from core.importing.listing import matching, rows_of
 from core.importing.segments import with_contours
 from core.program.model import CutterComp, LineSegment, Number, Program

@@ -12,7 +12,8 @@ from ezdxf.filemanagement import new as ezdxf_new
 from ezdxf.xclip import XClip
 
 from core.geometry.piece import Line
-from core.importing.contours import ContourList, ImportOptions, contours_of, fit_sentence, fitted_contour
+from core.importing.contour import fit_sentence, fitted_contour
+from core.importing.contours import ContourList, ImportOptions, contours_of
 from core.importing.drawing import Drawing, DrawingError, DrawingUnit
 from core.importing.dxf import read_dxf
 from core.importing.listing import sentences, unit_question

@@ -18,7 +18,7 @@ from core.controls.control_tools import CutterTool, ToolTable
 from core.controls.write.written_program import Posted
 from core.geometry.path import Path
 from core.geometry.piece import Arc, Line, Piece, Point, Side, Turn
-from core.importing.contours import Contour, ContourKind, fitted_contour, reversed_contour
+from core.importing.contour import Contour, ContourKind, fitted_contour, reversed_contour
 from core.importing.nc import read_nc
 from core.importing.nc_contour import nc_blocks
 from core.importing.segments import block_of, with_contours

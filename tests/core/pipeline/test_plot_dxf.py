@@ -9,7 +9,8 @@ import pytest
 from ezdxf.filemanagement import read as ezdxf_read
 
 from core.geometry.piece import Arc, Piece
-from core.importing.contours import ImportOptions, contours_of, reversed_contour, started_at
+from core.importing.contour import reversed_contour, started_at
+from core.importing.contours import ImportOptions, contours_of
 from core.importing.drawing import Drawing
 from core.importing.dxf import read_dxf
 from core.pipeline.derive import derive
