@@ -384,7 +384,7 @@ class FileActions(DerivationActions):
 
         def before() -> QuestionText | None:
             refuse_program(path)
-            return questions.before_output(path, file)
+            return questions.before_writing(path, file)
 
         def written(made: str) -> str:
             write_output(path, made)

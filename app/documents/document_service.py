@@ -14,7 +14,7 @@ from typing import Any, Final, Generic
 
 from app.documents import files, paths, questions, times, unsaved_work
 from app.documents.document import MAX_BYTES, AnyDocument, ContourDocument, Document, FileState, NcDocument
-from app.documents.journal import Head, Journal, Kind, beginning, continuing, records_between, same_edits
+from app.documents.journal import Head, Journal, Kind, beginning, continuing, records_between
 from app.documents.journal_file import JournalFile, Record, journal_path, new_path, reason_set_aside, set_aside
 from app.documents.lock import Lock, Owner, alive, held_by, myself, release, take, take_over, taken_by
 from app.documents.programs import empty_program, example, examples
@@ -524,7 +524,8 @@ class DocumentService:
         if closed and document.unsaved:
             # edited while its closing waited for the disk: it is open again, with all of its work
             entry.take_lock(now)
-        elif same_edits(before.work, document.work):
+        elif before.work.past is document.work.past and before.work.future is document.work.future:
+            # nothing was edited, undone or redone
             return None
         try:
             gone = entry.write(before, now)
@@ -564,7 +565,7 @@ class DocumentService:
         if (trouble := self._refusal(document, target)) is not None:
             return trouble
         if target != file:
-            ask = None if agreed else self._ask_before_other(document, target)
+            ask = None if agreed else questions.before_writing(target, file, held_by(target))
             return ask or self._write_file(entry, document, target, None)
         return self._save_own(entry, document, target, agreed)
 
@@ -586,11 +587,6 @@ class DocumentService:
         except StoreError as error:
             return Trouble(error.text)
         return None
-
-    def _ask_before_other(self, document: Document, target: Path) -> QuestionText | None:
-        if paths.is_outside_folder(target, document.file.path):
-            return questions.write_outside(target, document.file.path, held_by(target))
-        return questions.replace_file(target, held_by(target)) if os.path.lexists(target) else None
 
     def _save_own(
         self, entry: _OpenDocument, document: AnyDocument, path: Path, agreed: frozenset[str]

@@ -27,7 +27,7 @@ from app.documents.unsaved_work import (
     work_of_dead_processes,
 )
 from core.finding import Severity
-from core.pipeline.derived import Derived, DerivedBlock
+from core.pipeline.derived import DerivedBlock
 from core.program.file.read import StoreError
 from core.program.model import Number, Program
 
@@ -123,13 +123,9 @@ def _judged(facts: Facts, program: Program) -> Facts:
     # imported here, since the first paint needs neither numpy nor shapely
     from core.pipeline.derive import derive
 
-    return replace(facts, blocks=str(len(program.blocks)), tools=_tools(program), outcome=gravest(derive(program)))
-
-
-def gravest(derived: Derived) -> Outcome:
-    """Return the gravest outcome of a program's blocks."""
-    order = list(Outcome)
-    return min((outcome_of(block) for block in derived.blocks), key=order.index, default=Outcome.EMPTY)
+    outcomes = map(outcome_of, derive(program).blocks)
+    gravest = min(outcomes, key=list(Outcome).index, default=Outcome.EMPTY)
+    return replace(facts, blocks=str(len(program.blocks)), tools=_tools(program), outcome=gravest)
 
 
 def outcome_of(block: DerivedBlock) -> Outcome:

@@ -171,11 +171,6 @@ def delta(old: Program, new: Program) -> Record:
     }
 
 
-def same_edits(old: Work, new: Work) -> bool:
-    """True if nothing was edited, undone or redone between the two."""
-    return old.past is new.past and old.future is new.future
-
-
 # ---- reading
 
 

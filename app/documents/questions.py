@@ -120,7 +120,7 @@ def _unsaved_sentence(document: Document) -> str:
 # ---- before a file is written
 
 
-def write_outside(path: Path, file: Path | None, holder: Owner | None) -> QuestionText:
+def _write_outside(path: Path, file: Path | None, holder: Owner | None) -> QuestionText:
     """Ask once before a file outside the chosen folder is written; the lines say what would be replaced there."""
     target = Path(os.path.realpath(path))
     whose = "current" if file is None else "program's"
@@ -131,11 +131,14 @@ def write_outside(path: Path, file: Path | None, holder: Owner | None) -> Questi
     return QuestionText("WRITE IN ANOTHER FOLDER?", tuple(lines), (Answer(WRITE_THERE),))
 
 
-def before_output(path: Path, file: Path | None) -> QuestionText | None:
-    """Ask before a program's output is written into another folder or over an existing file; None if neither."""
+def before_writing(path: Path, file: Path | None, holder: Owner | None = None) -> QuestionText | None:
+    """Ask before anything is written into another folder or over an existing file; None if neither.
+
+    `holder` has the file open.
+    """
     if is_outside_folder(path, file):
-        return write_outside(path, file, None)
-    return replace_file(path, None) if os.path.lexists(path) else None
+        return _write_outside(path, file, holder)
+    return _replace_file(path, holder) if os.path.lexists(path) else None
 
 
 def write_through_link(path: Path) -> QuestionText:
@@ -145,7 +148,7 @@ def write_through_link(path: Path) -> QuestionText:
     return QuestionText("WRITE IN ANOTHER FOLDER?", (line,), (Answer(WRITE_THERE),))
 
 
-def replace_file(path: Path, holder: Owner | None) -> QuestionText:
+def _replace_file(path: Path, holder: Owner | None) -> QuestionText:
     """Ask before an existing file is replaced."""
     target = f", which leads to {printable_path(os.path.realpath(path))}" if path.is_symlink() else ""
     first, *rest = _replaced(path, holder)
