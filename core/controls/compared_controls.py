@@ -13,7 +13,7 @@ from core.controls.control_run import ControlRun, Stretch
 from core.controls.control_tools import ToolTable
 from core.controls.iso.flow import ProgramLibrary, no_library
 from core.controls.judging.judged_contour import JudgedContour
-from core.controls.judging.judged_runs import deepest_gouge, judge_run
+from core.controls.judging.judged_runs import judge_run
 from core.controls.moves import Moves
 from core.controls.registry import UnknownControl, compared, reads, run, run_with_tiny_tool
 from core.controls.write.read_back import MIN_TOLERANCE
@@ -31,7 +31,7 @@ MAX_POINT_PAIRS: Final = 1_000_000
 
 @dataclass(frozen=True, eq=False, slots=True)
 class Compared:
-    """A control's run of the program, its verdicts, and its deepest gouge in millimeters, 0 if there is none.
+    """A control's run of the program, and its verdicts.
 
     `parting` is where its path leaves that of the control `reference`; None if it does not.  If this control does not
     read the program's language, it has run the contour as the control `contour_of` reads it.
@@ -40,7 +40,6 @@ class Compared:
     control: str
     run: ControlRun
     results: tuple[JudgedContour, ...]
-    gouge: float
     parting: Parting | None
     contour_of: str = ""
     reference: str = ""
@@ -80,8 +79,8 @@ def compare(
         if isinstance(done, UnknownControl):
             continue
         where = None if first is None else parting(first.moves, done.moves)
-        judging = part(of_this, RUN_SHARE, 1.0)
-        rows.append(_row(done, where, reference="" if first is None else first.control, progress=judging))
+        results = judge_run(done, part(of_this, RUN_SHARE, 1.0))
+        rows.append(Compared(control, done, results, where, reference="" if first is None else first.control))
         if first is None and done.stopped_at is None:
             first = done
     whole = first or next(filter(None, (run_with_tiny_tool(text, row.control, tools) for row in rows)), None)
@@ -89,18 +88,6 @@ def compare(
         _by_contour(row.control, whole, paths=first is not None) if isinstance(row, OtherLanguage) else row
         for row in rows
     )
-
-
-def _row(
-    done: ControlRun,
-    where: Parting | None,
-    *,
-    contour_of: str = "",
-    reference: str = "",
-    progress: Progress = silent,
-) -> Compared:
-    results = judge_run(done, progress)
-    return Compared(done.control, done, results, deepest_gouge(results)[0], where, contour_of, reference)
 
 
 def _by_contour(control: str, first: ControlRun | None, *, paths: bool) -> Compared | OtherLanguage:
@@ -112,7 +99,7 @@ def _by_contour(control: str, first: ControlRun | None, *, paths: bool) -> Compa
         return OtherLanguage(control, made.text)
     done, digit = made
     where = _centers_part(first, done, max(MIN_TOLERANCE, 2 * digit)) if paths else None
-    return _row(done, where, contour_of=first.control, reference=first.control)
+    return Compared(control, done, judge_run(done), where, first.control, first.control)
 
 
 def _centers_part(first: ControlRun, other: ControlRun, tolerance: float) -> Parting | None:

@@ -12,6 +12,7 @@ from core.controls.compared_controls import Compared, OtherLanguage, compare
 from core.controls.contour_translation import run_by_contour, translate_contours
 from core.controls.control_run import ControlRun
 from core.controls.control_tools import ToolTable
+from core.controls.judging.judged_runs import deepest_gouge
 from core.controls.moves import Move
 from core.controls.registry import UnknownControl, run
 from core.controls.write.rewritten_stretch import NotTranslated
@@ -82,7 +83,7 @@ def test_an_iso_contour_on_klartext() -> None:
     tools = end_mills({1: 0.5})
     row = rows(ISO.encode(), tools)["klartext"]
     assert isinstance(row, Compared)
-    assert (row.run.stopped_at, row.gouge) == (None, 0.0)
+    assert (row.run.stopped_at, deepest_gouge(row.results)) == (None, (0.0, None))
     assert row.run.unit is Unit.IN
     contour = [tuple(from_mm(value, Unit.IN) for value in move.point[:2]) for move in row.run.moves if move.line]
     assert contour == [NEAR(want, abs=1e-5) for want in [(-0.25, 2), (0, 2.25), (3, 2.25)]]
@@ -108,7 +109,7 @@ def test_where_the_tool_is_too_large_on_klartext_the_others_still_answer() -> No
     assert isinstance(fine, Compared)
     assert isinstance(strict, Compared)
     assert (fine.run.stopped_at, fine.parting) == (None, None)
-    assert fine.gouge == NEAR(5, abs=0.01)
+    assert deepest_gouge(fine.results)[0] == NEAR(5, abs=0.01)
     assert strict.run.stopped_at == 8
 
 
