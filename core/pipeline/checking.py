@@ -232,15 +232,10 @@ def tool_option(tool: ToolId) -> str:
     return f"On the command line: --tool {quote(str(tool))}=DIAMETER."
 
 
-def _tool_key(tool: ToolId) -> str:
-    """Return the sentence that names the key of NC PROOF for a tool's size."""
-    return f"T gives tool {tool} its diameter."
-
-
 def answered(done: ControlRun, results: tuple[JudgedContour, ...], text: bytes, tools: ToolTable) -> Answer:
     """Return the answer of a control that has run a text, with the key that gives a tool its size if it needs one."""
     before = (*unusual_tools(tools, done.unit), *_foreign(done.control, text))
-    return _with_remedy(_answer(done, results, before, shop=False), _tool_key)
+    return _with_remedy(_answer(done, results, before, shop=False), lambda tool: f"T gives tool {tool} its diameter.")
 
 
 def answer_all(

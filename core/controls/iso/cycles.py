@@ -108,20 +108,15 @@ def _holes(state: ModalState, code: int, block: Block, *, is_first: bool) -> Ite
     if level < r:
         yield solid(here[0], here[1], r, plane), True
         height = level = r
-    if is_first:
-        _check_first(state, code, block)
+    # the first block of some cycles also needs the peck, or the time at the bottom
+    needed = "Q" if code in _PECK_CYCLES else "P" if code in _DWELL_CYCLES and state.dialect.table_needed else ""
+    if is_first and needed and needed not in block.words:
+        state.log.stop("CYCLE", f"{needed} is missing: the first G{code // 10} block needs it.", block.at("G"))
     back = r if cycle.to_r else level
     height = height if height > r else back
     for index in range(repeats):
         first, second, _ = flat(state.target(block.words), plane)
         yield from _hole(state, code, block, Hole(first, second, back if index else height, r, bottom, back, plane))
-
-
-def _check_first(state: ModalState, code: int, block: Block) -> None:
-    """Check for what some cycles also need in their first block: the peck, or the time at the bottom."""
-    needed = "Q" if code in _PECK_CYCLES else "P" if code in _DWELL_CYCLES and state.dialect.table_needed else ""
-    if needed and needed not in block.words:
-        state.log.stop("CYCLE", f"{needed} is missing: the first G{code // 10} block needs it.", block.at("G"))
 
 
 def _repeats(state: ModalState, block: Block) -> int:

@@ -123,20 +123,16 @@ def _depths(moves: Moves, stretch: Stretch) -> list[Finding]:
     sinking = np.flatnonzero(heights[1:] != heights[:-1]) + 1
     contour = np.flatnonzero(programmed.moving_in(stretch.plane)[stretch.entry + 1 :])
     begin = stretch.entry + 1 + int(contour[0]) if len(contour) else len(programmed)
-    findings = [_sunk(index, int(programmed.lines[row])) for index, row in enumerate(sinking[sinking < begin].tolist())]
+    early = programmed.lines[sinking[sinking < begin]].tolist()
+    text = "The tool reaches depth after compensation turns on. One such move is allowed; before it is better."
+    findings = [Finding("H1", Severity.INFO, text, line=line, column=1) for line in early[:1]]
+    text = "The tool axis moves again after compensation turns on. Move it to its final depth before."
+    findings += [_warn("H1", text, line) for line in early[1:]]
     late = programmed.lines[sinking[sinking >= begin]].tolist()
     if not stretch.exit and len(late) == 0 and moves.points[stretch.last - 1, height] != heights[-1]:
         late.append(int(moves.lines[stretch.last - 1]))
     text = "The tool axis moves under compensation. Move it after compensation turns off."
     return findings + [_warn("H5", text, line) for line in dict.fromkeys(late)]
-
-
-def _sunk(index: int, line: int) -> Finding:
-    if index:
-        text = "The tool axis moves again after compensation turns on. Move it to its final depth before."
-        return _warn("H1", text, line)
-    text = "The tool reaches depth after compensation turns on. One such move is allowed; before it is better."
-    return Finding("H1", Severity.INFO, text, line=line, column=1)
 
 
 def _side(stretch: Stretch) -> Finding:

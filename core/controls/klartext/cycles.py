@@ -77,7 +77,8 @@ def cycle(state: State, block: Block) -> None:
         _transform(state, rest, number)
     elif number in _NEUTRAL and _is_neutral(state, block, number, rest.body):
         state.log.inform("IGNORED", f"Cycle {number} is skipped: these values turn, mirror and scale nothing.", block)
-    elif number == 247 and _at_the_start(state):
+    elif number == 247 and state.waiting.step is None and len(state.waiting.center.record.tape) == 1:
+        # nothing has moved yet
         state.log.inform("IGNORED", "Cycle 247 selects the workpiece datum. All positions count from it.", block)
     elif number in _TRANSFORM_CYCLES or number >= _FIRST_PROBE:
         text = f"Cycle {number} moves or transforms the contour, which is not supported. Write out its moves."
@@ -156,11 +157,6 @@ def _end_height(state: State) -> float | None:
         return None
     height = to_mm(values["Q203"] + max(values["Q200"], values["Q204"]), state.unit)
     return height + state.shift[state.plane.axes[2]]
-
-
-def _at_the_start(state: State) -> bool:
-    """True if nothing has moved yet."""
-    return len(state.waiting.center.record.tape) == 1 and state.waiting.step is None
 
 
 def _call_block(state: State, block: Block) -> None:

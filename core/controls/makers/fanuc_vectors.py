@@ -123,7 +123,9 @@ class VectorQueue(Recorder):
             self._go_on(element)
             return
         start = copysign(held.offset, self.coming)
-        self._check_new_offset(element, start)
+        if element.turn and abs(self.coming) != abs(start):
+            text = "The offset changes in an arc, which cutcomp does not follow. Write the new D in a straight move."
+            self.log.stop("FN-DARC", text, element)
         joint = self._corner(held, element, start)
         vectors = _points(joint, element)
         self._release(held, vectors)
@@ -140,11 +142,6 @@ class VectorQueue(Recorder):
         ends = (element.start, element.end) if element.turn else ()
         if any(hypot(x - element.center[0], y - element.center[1]) < SAME_DIRECTION for x, y in ends):
             self.log.stop(self.alarms.point, "The arc starts or ends at its center. Correct I and J.", element)
-
-    def _check_new_offset(self, element: Element, start: float) -> None:
-        if element.turn and abs(self.coming) != abs(start):
-            text = "The offset changes in an arc, which cutcomp does not follow. Write the new D in a straight move."
-            self.log.stop("FN-DARC", text, element)
 
     def _go_on(self, element: Element) -> None:
         """Hold an element after a square end: it starts there and runs at a slant to its own end."""
