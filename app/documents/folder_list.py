@@ -107,8 +107,7 @@ def _without_file(path: Path) -> Facts:
     if any(not alive(journal.head.owner) for journal in journals):
         return _not_saved(gone)
     if journals:
-        text = "This program is open and has not been saved yet."
-        return replace(gone, outcome=Outcome.OPEN, trouble=text)
+        return replace(gone, outcome=Outcome.OPEN, trouble="This program is open and has not been saved yet.")
     if left:
         return replace(gone, trouble="Unsaved work on this program cannot be read. It is kept; opening it says where.")
     return replace(gone, trouble="This file is not there any more, or its folder cannot be read.")

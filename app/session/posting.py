@@ -45,8 +45,7 @@ def choices() -> tuple[ControlChoice, ...]:
     from core.controls.control_names import ControlChoice
     from core.controls.registry import choices as controls
 
-    about = "no G41 or G42, for LinuxCNC"
-    return (ControlChoice(CENTER_PATH, CENTER_PATH, "", about), *controls())
+    return (ControlChoice(CENTER_PATH, CENTER_PATH, "", "no G41 or G42, for LinuxCNC"), *controls())
 
 
 def nc_text(

@@ -108,12 +108,10 @@ class MacroParameters:
         if index > _MACRO_LAST:
             raise FaultError("PARAMETER", _no_parameter(index, _MACRO_LAST), at)
         if index >= _MACRO_SYSTEM:
-            text = f"Only the control knows #{index} at run time. Program the number."
-            raise FaultError("BEYOND", text, at)
+            raise FaultError("BEYOND", f"Only the control knows #{index} at run time. Program the number.", at)
         value = self._store(index).get(index)
         if value is None:
-            text = f"#{index} has no value yet in this program. Set it first."
-            raise FaultError("PARAMETER", text, at)
+            raise FaultError("PARAMETER", f"#{index} has no value yet in this program. Set it first.", at)
         return value
 
     def _system(self, key: int | str, subject: str, at: int) -> float:
@@ -134,8 +132,7 @@ class MacroParameters:
             return self._system(name, f"#<{quoted(name.lower())}>", at)
         value = self._scope(name).get(name)
         if value is None:
-            text = f"#<{quoted(name.lower())}> has no value yet. Set it first."
-            raise FaultError("PARAMETER", text, at)
+            raise FaultError("PARAMETER", f"#<{quoted(name.lower())}> has no value yet. Set it first.", at)
         return value
 
     def exists(self, name: str) -> bool:

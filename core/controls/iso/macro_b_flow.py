@@ -48,8 +48,6 @@ BUILDER_PROGRAMS: Final = range(9000, 10_000)
 MAX_CALLS: Final = 4
 """How deep subprograms may nest; macros have the same limit of their own."""
 
-MAX_LOOPS: Final = 3
-
 MAX_TIMES: Final = 9999
 
 _KEYWORD: Final = re.compile(
@@ -270,8 +268,7 @@ class MacroFlow(Flow):
         rows_without_progress = self.calls[-1].rows_without_progress
         if rows_without_progress > MAX_ROWS_WITHOUT_PROGRESS + (1 + ROWS_OF_CALL) * len(self.lines):
             text = f"The program does not end: for {rows_without_progress} blocks or more, no condition of a loop or"
-            text = f"{text} a jump came closer to its end. cutcomp stops here."
-            self.log.stop("LIMIT", text, self.spots[line - 1])
+            self.log.stop("LIMIT", f"{text} a jump came closer to its end. cutcomp stops here.", self.spots[line - 1])
         if self.rows_run_again > MAX_ROWS_RUN_AGAIN or self.rows_without_movement > MAX_ROWS_WITHOUT_MOVEMENT:
             text = "The program does not end: a loop or a jump runs for ever. cutcomp stops here."
             self.log.stop("LIMIT", text, self.spots[line - 1])
@@ -356,7 +353,7 @@ class MacroFlow(Flow):
         if is_words(words):
             self._note_points(words, row)
             block = Block(self.spots[row].line, self.lines[row], self.spots[row].column - 1)
-            plain = fill_words(block, pairs_in(words), self.log, self.dialect.syntax) if words.strip() else None
+            plain = fill_words(block, pairs_in(words), self.log, last_counts=True) if words.strip() else None
             return Statement("", CompactText("", (), self.spots[row].line), plain=plain)
         bare = without_comments(text, COMMENT_GAP)
         line = CompactText.of(bare, self.spots[row].line, self.spots[row].column - 1)
@@ -543,7 +540,7 @@ class MacroFlow(Flow):
         if not words:
             return None
         block = Block(number, line.text, self.spots[row].column - 1, evaluated=words, corner=corner)
-        return fill_words(block, words, self.log, self.dialect.syntax)
+        return fill_words(block, words, self.log, last_counts=True)
 
     def _following(self, row: int) -> Block | None:
         """Return the next block of words, for the corner before it; None if a macro statement comes first."""

@@ -60,14 +60,11 @@ class Syntax:
     """A semicolon ends a block instead of beginning a comment."""
     tool_data: bool = False
     """Slashes separate tool data, as in T4/.75/.2."""
-    blanks: bool = True
-    """A blank separates words; otherwise blanks have no meaning anywhere."""
-    last_counts: bool = False
-    """Of two words with the same letter the last counts, with a warning."""
     corners: bool = False
     """The control has `,R` and `,C`, which cutcomp does not follow."""
     strict: bool = False
-    """N comes first without a decimal point, lines have at most LONGEST_STRICT characters, no byte order mark."""
+    """Blanks have no meaning anywhere, N comes first without a decimal point, lines have at most LONGEST_STRICT
+    characters, no byte order mark."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -224,7 +221,7 @@ def _read_closely(
         length, diameter = (None if part is None else float(part) for part in (data[2], data[3]))
         block.data = ToolData(int(data[1][:9]), length, diameter)
         bare = bare[: data.start()] + " " * len(data[0]) + bare[data.end() :]
-    if not syntax.blanks and block.text.count("(") > 1:
+    if syntax.strict and block.text.count("(") > 1:
         _without_blanks(block, log)
     if bare.lstrip().startswith("/"):
         log.inform("SKIP", "Block skip is assumed off, so this block runs.", block)
@@ -238,7 +235,7 @@ def _read_closely(
     if values is not None and _EXPRESSION.search(bare):
         return _evaluated_block(block, log, values)
     if _CLEAN.fullmatch(bare) is None:
-        squeezed = "" if syntax.blanks else _without_blanks(block, log)
+        squeezed = _without_blanks(block, log) if syntax.strict else ""
         if not squeezed or _CLEAN.fullmatch(squeezed) is None:
             _fault(block, bare, log, syntax)
         block.text = bare = squeezed
@@ -269,9 +266,12 @@ def pairs_in(upper: str) -> list[tuple[str, str]]:
 
 
 def fill_words(
-    block: Block, pairs: Iterable[tuple[str, str] | Word], log: Log, syntax: Syntax = PLAIN_SYNTAX
+    block: Block, pairs: Iterable[tuple[str, str] | Word], log: Log, *, last_counts: bool = False
 ) -> Block:  # fmt: skip
-    """Fill a block with letters and their numbers, and return it."""
+    """Fill a block with letters and their numbers, and return it.
+
+    With `last_counts`, the last of two words with the same letter counts, with a warning; else they stop the run.
+    """
     words = block.words
     for letter, number, *_ in pairs:
         if letter in "GM":
@@ -281,20 +281,16 @@ def fill_words(
                 log.stop("CODE", f"{letter}{quoted(number)} is not a code of any control.", place)
             (block.g if letter == "G" else block.m).append(code)
             continue
-        if letter in words and not (letter in "IJK" and syntax.last_counts and not {650, 660, 661}.isdisjoint(block.g)):
-            _report_twice(letter, block, log, syntax)
+        if letter in words and not (letter in "IJK" and last_counts and not {650, 660, 661}.isdisjoint(block.g)):
+            place = Spot(block.line, [word.column for word in block.written() if word.letter == letter][1])
+            if not last_counts:
+                log.stop("TWICE", f"{letter} is written twice in this block; keep one.", place)
+            log.warn("TWICE", f"{letter} is written twice in this block; the control takes the last one.", place)
         words[letter] = value = float(number)
         if not -LARGEST_COORDINATE < value < LARGEST_COORDINATE:
             text = f"{letter}{quoted(number)} is too large: no machine goes beyond {LARGEST_COORDINATE:,.0f}."
             log.stop("NUMBER", text, block.at(letter))
     return block
-
-
-def _report_twice(letter: str, block: Block, log: Log, syntax: Syntax) -> None:
-    place = Spot(block.line, [word.column for word in block.written() if word.letter == letter][1])
-    if not syntax.last_counts:
-        log.stop("TWICE", f"{letter} is written twice in this block; keep one.", place)
-    log.warn("TWICE", f"{letter} is written twice in this block; the control takes the last one.", place)
 
 
 def _fault(block: Block, bare: str, log: Log, syntax: Syntax) -> None:

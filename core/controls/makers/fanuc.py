@@ -18,7 +18,7 @@ from core.controls.iso.expressions import ParameterStore
 from core.controls.iso.flow import MakeControl
 from core.controls.iso.machine import ARC_CENTER_LETTERS, LEFT_OPEN, NON_MODAL_ACTIONS, Control
 from core.controls.iso.macro_b_machine import ARC_CODES, HAAS_SYSTEMS, MacroMachine
-from core.controls.iso.reader import COMPENSATION_CODES, Block, Syntax, whole_word
+from core.controls.iso.reader import COMPENSATION_CODES, Block, whole_word
 from core.controls.makers.fanuc_vectors import Alarms, VectorQueue, VectorRules, vector_meeting
 from core.controls.moves import flat
 from core.geometry.piece import Point, Side
@@ -72,7 +72,6 @@ RULE_NAMES: Final[Mapping[str, str]] = {
 DIALECT: Final = Dialect(
     codes(*CODE_GROUPS),
     Unit.MM,
-    syntax=Syntax(semicolon_ends=True, blanks=False, last_counts=True),
     percent_ends=True,
     parameters=ParameterStore.FANUC,
     cycle_rule="FN-CYCLE",

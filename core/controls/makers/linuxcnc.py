@@ -41,7 +41,7 @@ DIALECT: Final = Dialect(
     ),
     Unit.MM,
     mode=None,
-    syntax=Syntax(blanks=False, strict=True),
+    syntax=Syntax(strict=True),
     arc_tolerance=ArcTolerance(inch=0.002828427, mm=0.02828427, most=100.0, interpreted=False),
     moves_alone=True,
     feed_needed=True,
@@ -203,8 +203,7 @@ class LinuxCnc(OneMoveQueue, Control):
     def _arc_words(self, block: Block) -> None:
         """Stop the run at I, J, K or R in a straight move, unless G10, G64 or M19 uses them."""
         if self._motion(block) in (0, 10) and not {100, 640}.intersection(block.g) and _ORIENT_CODE not in block.m:
-            text = "I, J, K and R go with G2 and G3 only. Remove them."
-            self.log.stop("N-WORDALONE", text, block.at("IJKR"))
+            self.log.stop("N-WORDALONE", "I, J, K and R go with G2 and G3 only. Remove them.", block.at("IJKR"))
 
     def takes_effect(self, code: int, block: Block) -> bool:
         """Stop the run at what compensation refuses; return False for G92.1 to G92.3, which then do nothing."""
@@ -258,8 +257,7 @@ class LinuxCnc(OneMoveQueue, Control):
         tool = self.machine.tools.get(number)
         if tool is None:
             if number == 0 or "D" not in block.words:
-                text = "No tool is loaded, so the radius is 0."
-                self.machine.nothing_compensated(text, block.at_side())
+                self.machine.nothing_compensated("No tool is loaded, so the radius is 0.", block.at_side())
                 return 0.0, 0
             self.log.stop("N-DBIG", missing_tool(number), block.at("D"), tool=number)
         if tool.orientation not in (0, 9) and self.machine.plane is not Plane.ZX:

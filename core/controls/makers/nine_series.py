@@ -117,8 +117,7 @@ class NineSeries(ElementQueue, Control):
             text = f"Offset {self.number} is not entered; enter its radius or write another D."
             self.log.stop("TOOL", text, block.at("DG"), tool=self.number)
         radius = tool.diameter_mm(self.machine.unit) / 2
-        text = "The radius is negative: the tool runs on the other side."
-        self.note_radius(radius, "R4", text, block.at("DG"))
+        self.note_radius(radius, "R4", "The radius is negative: the tool runs on the other side.", block.at("DG"))
         self.machine.compare_offset(radius, f"D{self.number}", block.at("DG"))
         return radius
 

@@ -70,8 +70,7 @@ class RosettaCnc(Control):
         if "D" not in block.words:
             self.log.stop("C1", "G41.1 and G42.1 need D and the cutter's diameter.", block.at_side())
         if "L" in block.words:
-            text = "L, the orientation of a lathe tool, is 0 to 9."
-            orientation = whole_word(block, "L", self.log, "C4", text, 0, 9)
+            orientation = whole_word(block, "L", self.log, "C4", "L, the orientation of a lathe tool, is 0 to 9.", 0, 9)
             if self.plane is not Plane.ZX:
                 self.log.stop("C5", "L goes with the plane G18 only. Remove it.", block.at("L"))
             self._nose(orientation, block.at("L"))

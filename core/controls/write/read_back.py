@@ -97,8 +97,7 @@ def read_back(intended: Intended, compared: ComparedPaths | None = None) -> tupl
         return stopped
     cuts = [cut for cut in intended.cuts if isinstance(cut, CompensatedPass)]
     if len(made.stretches) != len(cuts):
-        text = f"The control makes {len(made.stretches)} compensated runs instead of {len(cuts)}."
-        return (not_written(text),)
+        return (not_written(f"The control makes {len(made.stretches)} compensated runs instead of {len(cuts)}."),)
     if (different := different_move(made, intended)) is not None:
         return (different,)
     compared = {} if compared is None else compared
@@ -243,9 +242,9 @@ def _damage(made: Path, inner: Path, cut: CompensatedPass, intended: Intended, *
     if not planned.judged:
         return not_written("The block's path cannot be judged.")
     if (more := _length_left(verdicts[0], intended) - _length_left(planned, intended)) > intended.tolerance:
-        what = "compensates this differently, and its path leaves {0} more of the contour uncut"
-        text = f"{intended.control_name} {what}."
-        return not_written(text, verdicts[0].uncut[0].first_number, lengths=(more,))
+        text = "compensates this differently, and its path leaves {0} more of the contour uncut."
+        first = verdicts[0].uncut[0].first_number
+        return not_written(f"{intended.control_name} {text}", first, lengths=(more,))
     return None
 
 

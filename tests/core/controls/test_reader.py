@@ -87,7 +87,7 @@ def test_faults_have_a_column(text: str, code: str, column: int) -> None:
 
 
 def test_blanks_may_be_insignificant() -> None:
-    read = block("G4 1 X1 .5 Y - 2", Syntax(blanks=False))
+    read = block("G4 1 X1 .5 Y - 2", Syntax(strict=True))
     assert (read.g, read.words) == ([410], {"X": 1.5, "Y": -2.0})
     assert fault("G4 1 X1")[0] == "WORD"
 
