@@ -287,11 +287,9 @@ class NineSeries(ElementQueue, Control):
         if element.turn:
             self._circular_exit(element)
         held, block = self.held, self.exit_block
-        if held is None or block is None:
-            return
-        if not {"I", "J", "K"}.isdisjoint(block.words):
+        if held is not None and block is not None and not {"I", "J", "K"}.isdisjoint(block.words):
             self.release(corner_rules.vector_end(held, self.vector_of(block) or (0.0, 0.0), self.offset))
-        elif self.type_a or self.offset == 0.0:
+        elif held is None or self.type_a or self.offset == 0.0:
             self.release_at_end()
         else:
             joint = self._with_notice(corner_rules.exit_joint(held, element, self.offset, self.rules.outside), element)
@@ -306,8 +304,9 @@ class NineSeries(ElementQueue, Control):
         self.leave()
 
     def _interrupt(self, block: Block) -> None:
-        """At a change of origin, make the last move an exit move and the next one an entry move."""
-        text = "The origin changes under compensation: the last move leaves it and the next one enters it again."
+        """At a change of origin, make the last move an exit move and, without a G40, the next one an entry move."""
+        again = " and the next one enters it again" if self.exit_block is None else ""
+        text = f"The origin changes under compensation: the last move leaves it{again}."
         self.log.warn("R7", text, block.at("G"))
         before, last, standing = self.before, self.held, self.standing
         if last is None:
@@ -319,6 +318,9 @@ class NineSeries(ElementQueue, Control):
         for element in (last, *standing):
             self.straight(element, last.end)
         self.held, self.start, self.standing, self.entering = None, None, [], True
+        if self.exit_block is not None:
+            self._cancel()
+            self.close_stretch()
 
     def end_of_program(self) -> None:
         """End of the program: cancel compensation; the held move ends square."""

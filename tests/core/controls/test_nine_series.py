@@ -205,3 +205,14 @@ def test_rotation_mirror_image_scaling_and_polar_codes_are_unsupported() -> None
 def test_a_new_origin_interrupts_compensation(code: str) -> None:
     run = run_of(f"G20 G17 G1 F10\nG41 D1 X1 Y1\nX3\n{code}\nX5\nG40 X6\nM2\n", "nine-series:a", t1=0.5)
     assert [finding.line for finding in findings_of(run, "R7")] == [4]
+
+
+@pytest.mark.parametrize("code", ["G52 X0", "G54", "G92 X3 Y1"])
+@pytest.mark.parametrize("kind", ["a", "b"])
+def test_a_new_origin_after_g40_ends_compensation_with_the_last_move(kind: str, code: str) -> None:
+    body = f"G41 D1 X1 Y1\nX3\nG40\n{code}\nX5\nX5 Y4\nM2\n"
+    run = run_of(f"G20 G17 G1 F10\n{body}", f"nine-series:{kind}", t1=0.5)
+    assert same(shape(run)[-3:], [("line", 3, 1), ("line", 5, 1), ("line", 5, 4)])
+    assert [finding.text.partition(":")[2] for finding in findings_of(run, "R7")] == [" the last move leaves it."]
+    assert len(run.stretches) == 1
+    assert not findings_of(run, "OPEN")
