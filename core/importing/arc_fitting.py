@@ -90,9 +90,10 @@ def _ring(points: Points, fit: float) -> tuple[list[Piece], float]:
 
 
 def _circle(points: Points, fit: float) -> _Fit | None:
-    """Return the full circle through points that turn once about their middle, or None."""
-    if len(points) < MIN_LINES + 1:
-        return None
+    """Return the full circle through points that turn once about their middle, or None.
+
+    The points of a smooth ring are many: it turns by a corner's angle at most at each.
+    """
     # least squares of x^2 + y^2 = 2 a x + 2 b y + c about the middle
     middle = points.mean()
     local = points - middle
@@ -199,7 +200,7 @@ def _bent(points: Points, fit: float) -> _Fit | None:
             break
     height = (low + high) / 2.0
     off = _off_arc(local, size, height)
-    radius = (size * size / 4.0 + height * height) / (2.0 * height) if height > 0.0 else float("inf")
+    radius = (size * size / 4.0 + height * height) / (2.0 * height)
     if off > fit or radius > MAX_RADIUS:
         return None
     below = height - radius
@@ -208,9 +209,7 @@ def _bent(points: Points, fit: float) -> _Fit | None:
 
 
 def _off_arc(local: Points, size: float, height: float) -> float:
-    """Return how far points and their lines are from the arc of this height over its chord."""
-    if height <= 0.0:
-        return float(np.abs(local.imag).max())
+    """Return how far points and their lines are from the arc of this height, above 0, over its chord."""
     radius = (size * size / 4.0 + height * height) / (2.0 * height)
     center = complex(0.0, height - radius)
     off = float(np.abs(np.abs(local - center) - radius).max())
