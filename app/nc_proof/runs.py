@@ -15,7 +15,9 @@ from core.progress import Progress, part, silent
 from core.units import Unit
 
 if TYPE_CHECKING:
+    from core.controls.control_run import ControlRun
     from core.controls.control_tools import ToolId, ToolTable
+    from core.controls.judging.judged_contour import JudgedContour
     from core.draw.scene import Layer, Scene
     from core.finding import Finding
     from core.pipeline.checking import Answer, CheckRequest
@@ -75,20 +77,18 @@ class RanDotted:
 
 def run(request: RunRequest, progress: Progress = silent) -> Result:
     """Run the program on its control, without the verdicts, which take longer than the run."""
-    from core.controls.registry import UnknownControl
-    from core.pipeline.nc_proof import run_program
+    from core.controls import registry
 
-    library = partial(called_program, request.folder)
-    proof = run_program(request.text.data, request.control, request.tools, request.unit, library, progress)
-    assert not isinstance(proof, UnknownControl), proof.text
-    return _result(request, proof, judged=False)
+    data, library = request.text.data, partial(called_program, request.folder)
+    done = registry.run(data, request.control, request.tools, request.unit, library, progress=progress)
+    return _result(request, done, ())
 
 
 def judge(result: Result, progress: Progress = silent) -> Result:
     """Return the result with the verdicts added."""
-    from core.pipeline.nc_proof import with_verdicts
+    from core.controls.judging.judged_runs import judge_run
 
-    return _result(result.request, with_verdicts(result.proof, progress), judged=True)
+    return _result(result.request, result.proof.run, judge_run(result.proof.run, progress), judged=True)
 
 
 def with_largest_tool(result: Result, progress: Progress = silent) -> Result:
@@ -111,11 +111,13 @@ def run_dotted(main: Result, control: str, progress: Progress = silent) -> RanDo
     return RanDotted(result, dotted_path(result.proof, main.proof.plane))
 
 
-def _result(request: RunRequest, proof: Proof, *, judged: bool) -> Result:
+def _result(
+    request: RunRequest, done: ControlRun, results: tuple[JudgedContour, ...], *, judged: bool = False
+) -> Result:
     from core.pipeline.checking import answered
-    from core.pipeline.nc_proof import fixed_scene
+    from core.pipeline.nc_proof import Proof, fixed_scene
 
-    answer = answered(proof.run, proof.results, request.text.data, request.tools)
+    answer, proof = answered(done, results, request.text.data, request.tools), Proof(done, results)
     return Result(request, answer, proof, fixed_scene(proof), judged)
 
 

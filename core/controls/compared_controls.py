@@ -15,7 +15,7 @@ from core.controls.iso.flow import ProgramLibrary, no_library
 from core.controls.judging.judged_contour import JudgedContour
 from core.controls.judging.judged_runs import judge_run
 from core.controls.moves import Moves
-from core.controls.registry import UnknownControl, compared, reads, run, run_with_tiny_tool
+from core.controls.registry import compared, reads, run, run_with_tiny_tool
 from core.controls.write.read_back import MIN_TOLERANCE
 from core.controls.write.rewritten_stretch import NotTranslated
 from core.geometry.path import EMPTY, Floats, Path
@@ -76,8 +76,6 @@ def compare(
             rows.append(OtherLanguage(control))
             continue
         done = run(text, control, tools, unit or Unit.IN, library, progress=part(of_this, 0.0, RUN_SHARE))
-        if isinstance(done, UnknownControl):
-            continue
         where = None if first is None else parting(first.moves, done.moves)
         results = judge_run(done, part(of_this, RUN_SHARE, 1.0))
         rows.append(Compared(control, done, results, where, reference="" if first is None else first.control))

@@ -133,15 +133,14 @@ def run(
     library: ProgramLibrary = no_library,
     *,
     progress: Progress = silent,
-) -> ControlRun | UnknownControl:
+) -> ControlRun:
     """Run a program's text on a control, by its full or short name; no text raises anything but Stopped.
 
-    `unit` counts if the text names none; None is the one in which the control usually starts.  `library` finds the
-    programs that a control calls from its memory.
+    There must be a control of this name: `resolve` tells.  `unit` counts if the text names none; None is the one in
+    which the control usually starts.  `library` finds the programs that a control calls from its memory.
     """
     full = resolve(control)
-    if isinstance(full, UnknownControl):
-        return full
+    assert not isinstance(full, UnknownControl), full.text
     made = _run(text, full, tools, unit, library, progress)
     if made.stretches and made.stops_within(made.stretches[-1]) and not made.endless:
         made = _with_rest_of_contour(made, _run(text, full, tools, unit, library, progress, TINY_SHARE))

@@ -17,7 +17,7 @@ from core.controls.control_run import ControlRun, Stretch
 from core.controls.control_tools import ToolTable
 from core.controls.judging.contours_and_leads import split_where_it_closes
 from core.controls.moves import Moves, Plane
-from core.controls.registry import UnknownControl, run
+from core.controls.registry import UnknownControl, resolve, run
 from core.finding import Finding, Severity
 from core.geometry.construct import even_arc
 from core.geometry.path import Path, runs_of
@@ -44,9 +44,9 @@ def read_nc(
     text: bytes, control: str, tools: ToolTable, *, unit: Unit | None = None, center: CenterPathTool | None = None
 ) -> NcProgram:
     """Return the contours of a program on a control.  Raises NcError; `center` is needed if nothing is compensated."""
-    result = run(text, control, tools, unit)
-    if isinstance(result, UnknownControl):
-        raise NcError(result.text)
+    if isinstance(known := resolve(control), UnknownControl):
+        raise NcError(known.text)
+    result = run(text, known, tools, unit)
     errors = [finding for finding in result.findings if finding.severity is Severity.ERROR]
     _refuse_alarm(result, errors)
     if result.stretches:

@@ -26,7 +26,7 @@ from core.controls.judging.judged_contour import JudgedContour
 from core.controls.judging.judged_findings import judged_findings
 from core.controls.judging.judged_runs import deepest_gouge, first_unjudged, judge_run
 from core.controls.moves import Move, Moves
-from core.controls.registry import UnknownControl, reads, run
+from core.controls.registry import reads, run
 from core.finding import Finding, Severity
 from core.program.tools import unusual_size
 from core.progress import Progress, silent
@@ -166,7 +166,6 @@ class Answer:
 def answer(text: bytes, request: CheckRequest) -> Answer:
     """Return one control's answer."""
     done = run(text, request.control, request.tools, request.unit, request.library)
-    assert not isinstance(done, UnknownControl), done.text
     before = (*unusual_tools(request.tools, done.unit), *_foreign(done.control, text))
     return _complete(_answer(done, judge_run(done), before, shop=request.shop), done, text, request)
 
@@ -474,9 +473,7 @@ def _stopped(name: str, done: ControlRun) -> str:
 
 def _read(text: bytes, request: CheckRequest) -> ControlRun:
     iso = request.control if request.control not in ("all", "klartext") else "linuxcnc"
-    done = run(text, "klartext" if reads("klartext", text) else iso, request.tools, request.unit)
-    assert not isinstance(done, UnknownControl), done.text
-    return done
+    return run(text, "klartext" if reads("klartext", text) else iso, request.tools, request.unit)
 
 
 def _pair(pair: ContourPair, first: Unit, second: Unit) -> str:
@@ -528,7 +525,7 @@ def largest_tool(
         diameter = step * size if tool.diameter > 0.0 else -step * size
         trial = tools.with_tools(ToolTable.of(replace(tool, diameter=diameter, unit=done.unit)))
         ran = run(text, done.control, trial, unit, library, progress=progress)
-        if isinstance(ran, UnknownControl) or len(ran.moves) > MAX_MOVES or ran.stopped_at is not None:
+        if len(ran.moves) > MAX_MOVES or ran.stopped_at is not None:
             return False
         return deepest_gouge(judge_run(ran, progress))[0] == 0.0
 

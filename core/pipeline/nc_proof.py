@@ -1,4 +1,4 @@
-"""Proves an NC program: runs it as a control does, judges its compensated stretches, and draws it."""
+"""Draws an NC program under proof: its run on a control, and the verdicts on its compensated stretches."""
 
 from __future__ import annotations
 
@@ -9,18 +9,12 @@ import numpy as np
 from numpy.typing import NDArray
 
 from core.controls.control_run import ControlRun, Stretch
-from core.controls.control_tools import ToolTable
-from core.controls.iso.flow import ProgramLibrary, no_library
 from core.controls.judging.judged_contour import JudgedContour
-from core.controls.judging.judged_runs import judge_run
 from core.controls.moves import Moves, Plane
-from core.controls.registry import UnknownControl, run
 from core.draw.scene import Circle, Layer, Mark, Scene, Style, Symbol, contour_scene, joined_scenes
 from core.geometry.path import Path, point_of_row
 from core.geometry.path_parts import parts_between
 from core.geometry.piece import Point
-from core.progress import Progress, silent
-from core.units import Unit
 
 
 @dataclass(frozen=True, eq=False, slots=True)
@@ -34,24 +28,6 @@ class Proof:
     def plane(self) -> Plane:
         """The plane that is drawn: that of the first compensated stretch, XY if there is none."""
         return self.run.stretches[0].plane if self.run.stretches else Plane.XY
-
-
-def run_program(
-    text: bytes,
-    control: str,
-    tools: ToolTable,
-    unit: Unit | None = None,
-    library: ProgramLibrary = no_library,
-    progress: Progress = silent,
-) -> Proof | UnknownControl:
-    """Run the program on a control, without the verdicts, which take longer than the run."""
-    result = run(text, control, tools, unit, library, progress=progress)
-    return result if isinstance(result, UnknownControl) else Proof(result, ())
-
-
-def with_verdicts(proof: Proof, progress: Progress = silent) -> Proof:
-    """Add a verdict on every compensated stretch; `progress` may raise Stopped."""
-    return Proof(proof.run, judge_run(proof.run, progress))
 
 
 def fixed_scene(proof: Proof) -> Scene:

@@ -7,17 +7,16 @@ from dataclasses import replace
 import pytest
 
 from core.controls.control_tools import ToolTable
+from core.controls.judging.judged_runs import judge_run
 from core.controls.moves import Plane
-from core.controls.registry import NO_TOOLS, UnknownControl
+from core.controls.registry import NO_TOOLS, UnknownControl, resolve, run
 from core.draw.scene import Scene, Style
 from core.pipeline.nc_proof import (
     Proof,
     cutter_at_line,
     dotted_path,
     fixed_scene,
-    run_program,
     scene_at_line,
-    with_verdicts,
 )
 from core.units import Unit
 from tests.tool_tables import end_mills
@@ -37,9 +36,8 @@ TOOLS = end_mills({1: 0.5})
 
 
 def proof(text: bytes = SQUARE, control: str = "nine-series:a", tools: ToolTable = TOOLS) -> Proof:
-    found = run_program(text, control, tools)
-    assert isinstance(found, Proof)
-    return with_verdicts(found)
+    done = run(text, control, tools)
+    return Proof(done, judge_run(done))
 
 
 def styles(scene: Scene) -> set[Style]:
@@ -116,4 +114,4 @@ def test_any_text_can_be_drawn(text: bytes) -> None:
 
 
 def test_an_unknown_control_is_reported() -> None:
-    assert isinstance(run_program(SQUARE, "siemens", TOOLS), UnknownControl)
+    assert isinstance(resolve("siemens"), UnknownControl)
