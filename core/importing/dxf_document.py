@@ -96,10 +96,11 @@ class ScannedEntity:
 
 @dataclass(slots=True)
 class Scan:
-    """The contents of a file by its tags.
+    """The contents of a file by its tags, entity by entity.
 
     `whole`: every section that begins ends, and the file ends with EOF.  `last_line` is the last line that was read,
-    `cut` the number of lines up to the last whole entity if the file breaks off within its entities.
+    `cut` the number of lines up to the last whole entity if the file breaks off within its entities.  `block` and
+    `entity` are those that the tags are in; `open_polyline`: its SEQEND has not come yet.
     """
 
     whole: bool = False
@@ -118,8 +119,11 @@ class Scan:
     """An entity has the handle 0, or a POLYLINE has no SEQEND."""
     bad_line: int = 0
     """The first line that should be a group code and is not, 0 if there is none."""
-    open_section: str = ""
-    """The section in which the file ends, empty if all sections end."""
+    section: str = ""
+    """The section that the tags are in; after the last tag the one in which the file ends, empty if all end."""
+    block: str | None = None
+    entity: ScannedEntity | None = None
+    open_polyline: bool = False
     cut: int = 0
     repaired: str = ""
     """Why the file could be read only after a repair, empty if it needed none."""
@@ -138,6 +142,97 @@ class Scan:
         every = (entity for entities in (self.lost, *self.blocks.values(), self.entities) for entity in entities)
         return next((entity for entity in every if entity.fault), None)
 
+    @property
+    def current(self) -> list[ScannedEntity]:
+        """The entities of the block that the tags are in, or of the section ENTITIES."""
+        return self.entities if self.block is None else self.blocks[self.block]
+
+    def read(self, tags: Iterable[Tag]) -> None:
+        """Take in the tags of a file."""
+        marker = Tag(-1, "", 0)
+        body: list[Tag] = []
+        for tag in tags:
+            if tag.code != 0:
+                body.append(tag)
+                continue
+            self.close(marker, body)
+            marker, body = tag, []
+            if tag.value == "EOF":
+                self.whole = not self.section
+                return
+            self.open(tag)
+        # the last entity may have lost something: only those before it are whole
+        if self.section in ("ENTITIES", "BLOCKS"):
+            self.cut = marker.line - 1 if marker.line else 0
+        last = self.current[-1] if self.current else None
+        if self.section == "ENTITIES" and last is not None and (self.open_polyline or last.line == marker.line):
+            self.cut = last.line - 1
+            self.current.pop()
+
+    def open(self, tag: Tag) -> None:
+        """Begin a section, a block or an entity at its marker."""
+        name = tag.value
+        if self.open_polyline and name not in _SUBORDINATE:
+            self.irregular, self.open_polyline = True, False
+        if name == "SECTION":
+            return
+        if name == "ENDSEC":
+            self.section, self.block = "", None
+        elif name in ("BLOCK", "ENDBLK"):
+            self.block = None
+        elif name in _SUBORDINATE:
+            if name == "SEQEND":
+                self.open_polyline = False
+            elif name == "VERTEX" and not self.open_polyline:
+                number = len(self.entities) + 1
+                self.lost.append(ScannedEntity(name, tag.line, number, fault="belongs to no POLYLINE"))
+        elif self.section == "ENTITIES" or self.block is not None:
+            self.entity = ScannedEntity(name, tag.line, len(self.current) + 1)
+            self.open_polyline = name == "POLYLINE"
+            self.current.append(self.entity)
+        elif self.section == "BLOCKS":
+            # the beginning of its block is missing
+            self.blocks.setdefault("", []).append(ScannedEntity(name, tag.line, 1, fault="stands outside of any block"))
+
+    def close(self, marker: Tag, body: list[Tag]) -> None:
+        """Process a marker once all its tags are known."""
+        if marker.code:
+            return
+        if marker.value == "SECTION":
+            self.section = next((tag.value for tag in body if tag.code == 2), "")
+            named = [tag for tag in body if tag.code != COMMENT_CODE]
+            if self.section == "HEADER":
+                self._header(body)
+            elif self.section in ("ENTITIES", "BLOCKS") and len(named) > 1:
+                self.lost.append(ScannedEntity("entity", named[1].line, 1, fault="has no kind (group code 0)"))
+            elif self.section not in _SECTIONS:
+                self.unknown_sections.append(self.section)
+            return
+        self.irregular |= any(tag[:2] == (HANDLE_CODE, NO_HANDLE) for tag in body)
+        if marker.value == "BLOCK" and self.section == "BLOCKS":
+            self.block = next((tag.value for tag in body if tag.code == 2), "").lower()
+            self.blocks.setdefault(self.block, [])
+        elif self.entity is not None and (marker.value in _SUBORDINATE or marker.line == self.entity.line):
+            self._check(self.entity, marker.value, body)
+
+    def _header(self, body: list[Tag]) -> None:
+        self.version = ""
+        for variable, value in pairwise(body):
+            if variable[:2] == (9, "$ACADVER"):
+                self.version = value.value
+            if variable[:2] == (9, "$INSUNITS") and value.code == 70 and value.value.lstrip("-").isdecimal():
+                self.units = int(value.value)
+
+    def _check(self, entity: ScannedEntity, kind: str, body: list[Tag]) -> None:
+        counts = Counter(tag.code for tag in body)
+        self.marked |= MARKER_CODE in counts
+        self.unmarked |= any(
+            (MARKER_CODE, name) not in (tag[:2] for tag in body) for name in MARKERS_OF_ENTITY.get(kind, ())
+        )
+        if kind == entity.kind and any(tag.code == 67 and tag.value == "1" for tag in body):
+            entity.paper = True
+        entity.fault = entity.fault or _fault(kind, counts, body)
+
 
 def text_lines(data: bytes) -> list[bytes]:
     """Return the lines of a text file, with any kind of line end."""
@@ -155,21 +250,6 @@ def is_dxf(data: bytes) -> bool:
     return first is not None and first[:2] == (0, "SECTION")
 
 
-def scan_text(data: bytes) -> Scan:
-    """Scan a text file."""
-    lines = text_lines(data)
-    scan = Scan(last_line=len(lines))
-    _Scanner(scan).run(_tags(lines, scan))
-    return scan
-
-
-def scan_tags(tags: Iterable[tuple[int, object]]) -> Scan:
-    """Scan the tags of a binary file."""
-    scan = Scan()
-    _Scanner(scan).run(Tag(code, str(value), 0) for code, value in tags if code != COMMENT_CODE)
-    return scan
-
-
 def _tags(lines: list[bytes], scan: Scan) -> Iterator[Tag]:
     """Yield the tags up to EOF, or up to the first line that should be a group code and is not."""
     for row in range(0, len(lines) - 1, 2):
@@ -183,114 +263,6 @@ def _tags(lines: list[bytes], scan: Scan) -> Iterator[Tag]:
         yield Tag(code, value, row + 1)
         if (code, value) == (0, "EOF"):
             return
-
-
-@dataclass(slots=True)
-class _Scanner:
-    """Walks through the tags, entity by entity, and keeps track of the section and the block."""
-
-    scan: Scan
-    section: str = ""
-    block: str | None = None
-    entity: ScannedEntity | None = None
-    open_polyline: bool = False
-
-    @property
-    def entities(self) -> list[ScannedEntity]:
-        """The entities of the block, or of the section ENTITIES."""
-        return self.scan.entities if self.block is None else self.scan.blocks[self.block]
-
-    def run(self, tags: Iterator[Tag]) -> None:
-        marker = Tag(-1, "", 0)
-        body: list[Tag] = []
-        for tag in tags:
-            if tag.code != 0:
-                body.append(tag)
-                continue
-            self.close(marker, body)
-            marker, body = tag, []
-            if tag.value == "EOF":
-                self.scan.whole = not self.section
-                self.scan.open_section = self.section
-                return
-            self.open(tag)
-        # the last entity may have lost something: only those before it are whole
-        self.scan.open_section = self.section
-        if self.section in ("ENTITIES", "BLOCKS"):
-            self.scan.cut = marker.line - 1 if marker.line else 0
-        last = self.entities[-1] if self.entities else None
-        if self.section == "ENTITIES" and last is not None and (self.open_polyline or last.line == marker.line):
-            self.scan.cut = last.line - 1
-            self.entities.pop()
-
-    def open(self, tag: Tag) -> None:
-        """Begin a section, a block or an entity at its marker."""
-        name = tag.value
-        if self.open_polyline and name not in _SUBORDINATE:
-            self.scan.irregular, self.open_polyline = True, False
-        if name == "SECTION":
-            return
-        if name == "ENDSEC":
-            self.section, self.block = "", None
-        elif name in ("BLOCK", "ENDBLK"):
-            self.block = None
-        elif name in _SUBORDINATE:
-            if name == "SEQEND":
-                self.open_polyline = False
-            elif name == "VERTEX" and not self.open_polyline:
-                number = len(self.scan.entities) + 1
-                self.scan.lost.append(ScannedEntity(name, tag.line, number, fault="belongs to no POLYLINE"))
-        elif self.section == "ENTITIES" or self.block is not None:
-            self.entity = ScannedEntity(name, tag.line, len(self.entities) + 1)
-            self.open_polyline = name == "POLYLINE"
-            self.entities.append(self.entity)
-        elif self.section == "BLOCKS":
-            # the beginning of its block is missing
-            self.scan.blocks.setdefault("", []).append(
-                ScannedEntity(name, tag.line, 1, fault="stands outside of any block")
-            )
-
-    def close(self, marker: Tag, body: list[Tag]) -> None:
-        """Process a marker once all its tags are known."""
-        if marker.code:
-            return
-        if marker.value == "SECTION":
-            self.section = next((tag.value for tag in body if tag.code == 2), "")
-            named = [tag for tag in body if tag.code != COMMENT_CODE]
-            if self.section == "HEADER":
-                self._header(body)
-            elif self.section in ("ENTITIES", "BLOCKS") and len(named) > 1:
-                self.scan.lost.append(ScannedEntity("entity", named[1].line, 1, fault="has no kind (group code 0)"))
-            elif self.section not in _SECTIONS:
-                self.scan.unknown_sections.append(self.section)
-            return
-        self.scan.irregular |= any(tag[:2] == (HANDLE_CODE, NO_HANDLE) for tag in body)
-        if marker.value == "BLOCK" and self.section == "BLOCKS":
-            self.block = next((tag.value for tag in body if tag.code == 2), "").lower()
-            self.scan.blocks.setdefault(self.block, [])
-        elif self.entity is not None and (marker.value in _SUBORDINATE or marker.line == self.entity.line):
-            self._check(marker.value, body)
-
-    def _header(self, body: list[Tag]) -> None:
-        self.scan.version = ""
-        for variable, value in pairwise(body):
-            if variable[:2] == (9, "$ACADVER"):
-                self.scan.version = value.value
-            if variable[:2] == (9, "$INSUNITS") and value.code == 70 and value.value.lstrip("-").isdecimal():
-                self.scan.units = int(value.value)
-
-    def _check(self, kind: str, body: list[Tag]) -> None:
-        assert self.entity is not None
-        counts = Counter(tag.code for tag in body)
-        self.scan.marked |= MARKER_CODE in counts
-        self.scan.unmarked |= any(
-            (MARKER_CODE, name) not in (tag[:2] for tag in body) for name in MARKERS_OF_ENTITY.get(kind, ())
-        )
-        if kind == self.entity.kind and any(tag.code == 67 and tag.value == "1" for tag in body):
-            self.entity.paper = True
-        fault = _fault(kind, counts, body)
-        if fault and not self.entity.fault:
-            self.entity.fault = fault
 
 
 def _fault(kind: str, counts: Counter[int], body: list[Tag]) -> str:
@@ -338,7 +310,9 @@ def document_of(data: bytes, *, damaged: bool) -> tuple[Scan, Document]:
         logger.addHandler(logging.NullHandler())
     if data.startswith(BINARY_MARK):
         return _binary_document(data, damaged=damaged)
-    scan = scan_text(data)
+    lines = text_lines(data)
+    scan = Scan(last_line=len(lines))
+    scan.read(_tags(lines, scan))
     if not scan.whole and not scan.bad_line:
         data = _up_to_break(data, scan, damaged=damaged)
     _check(scan, damaged=damaged)
@@ -417,8 +391,8 @@ def _up_to_break(data: bytes, scan: Scan, *, damaged: bool) -> bytes:
         count = len(scan.entities)
         could = f"{count} {'entity' if count == 1 else 'entities'} could be read"
         raise DrawingError("DXF_DAMAGED", f"This file breaks off at line {scan.last_line}: {could}.", count)
-    end = [b"0", b"ENDBLK"] if scan.open_section == "BLOCKS" else []
-    if scan.open_section:
+    end = [b"0", b"ENDBLK"] if scan.section == "BLOCKS" else []
+    if scan.section:
         end += [b"0", b"ENDSEC"]
     lines = text_lines(data)
     kept = lines[: scan.cut] if scan.cut else lines[: len(lines) // 2 * 2]
@@ -435,7 +409,8 @@ def _binary_document(data: bytes, *, damaged: bool) -> tuple[Scan, Document]:
     from ezdxf.lldxf.tagger import binary_tags_loader
 
     try:
-        scan = scan_tags((tag.code, tag.value) for tag in binary_tags_loader(data))
+        tags, scan = binary_tags_loader(data), Scan()
+        scan.read(Tag(tag.code, str(tag.value), 0) for tag in tags if tag.code != COMMENT_CODE)
         _check(scan, damaged=damaged)
         if scan.whole:
             return scan, Document.load(_normalized(binary_tags_loader(data), scan))
