@@ -114,7 +114,7 @@ def contours_of(drawing: Drawing, options: ImportOptions, progress: Progress = s
     progress("chaining", 0, 1)
     groups = [cleaned.pieces, *cleaned.closed]
     results = [chained([item.piece for item in items], options.tolerance) for items in groups]
-    chains = ((chain, items) for items, result in zip(groups, results, strict=True) for chain in result.chains)
+    chains = ((chain, items) for items, (chains, _) in zip(groups, results, strict=True) for chain in chains)
     contours = [contour for each in chains if (contour := _contour(*each, options.tolerance)).pieces]
     progress("nesting", 0, 1)
     ordered = _with_open_gaps(_nested(contours), options.program_unit, options.tolerance)
@@ -124,7 +124,7 @@ def contours_of(drawing: Drawing, options: ImportOptions, progress: Progress = s
         tuple(ordered),
         cleaned,
         max((contour.gap for contour in ordered), default=0.0),
-        _branches(results[0].branches, ordered, options.tolerance),
+        _branches(results[0][1], ordered, options.tolerance),
         tuple(notes),
     )
 

@@ -40,16 +40,11 @@ class Chain:
     closed: bool
 
 
-@dataclass(slots=True)
-class Chained:
-    """All chains; `branches` are the points where more than two ends meet, with their number."""
+def chained(pieces: Sequence[Piece], tolerance: float) -> tuple[list[Chain], list[tuple[Point, int]]]:
+    """Chain the pieces, which are in an order that does not depend on the drawing's.
 
-    chains: list[Chain]
-    branches: list[tuple[Point, int]]
-
-
-def chained(pieces: Sequence[Piece], tolerance: float) -> Chained:
-    """Chain the pieces, which are in an order that does not depend on the drawing's."""
+    Also return the branches, the points where more than two ends meet, with their number.
+    """
     rows = [row for row, piece in enumerate(pieces) if not is_circle(piece)]
     chains = [Chain([Link(row, True)], True) for row, piece in enumerate(pieces) if is_circle(piece)]
     curves = [pieces[row] for row in rows]
@@ -57,7 +52,7 @@ def chained(pieces: Sequence[Piece], tolerance: float) -> Chained:
     for chain in _Chainer(curves, nodes).run():
         chains.append(Chain([Link(rows[link.row], link.forward) for link in chain.links], chain.closed))
     crowded = [(nodes.places[node], nodes.degree(node)) for node in range(len(nodes.places)) if nodes.degree(node) > 2]
-    return Chained(chains, sorted(crowded))
+    return chains, sorted(crowded)
 
 
 @dataclass(slots=True)

@@ -123,6 +123,7 @@ class Record:
     the tape, at the point `start`.  `share` is the fraction of the tool radius that the run uses.
     """
 
+    log: Log
     share: float = 1.0
     tape: Tape = field(default_factory=Tape)
     stretches: list[Stretch] = field(default_factory=list)
@@ -194,7 +195,7 @@ class Record:
 
 
 @dataclass(slots=True)
-class CenterPathRecorder:
+class CenterPathRecorder(Record):
     """Takes steps in their order and records the center's moves.
 
     `held` is the contour element whose end is not known yet, `begin` the point at which its offset starts; `entry` is a
@@ -202,8 +203,6 @@ class CenterPathRecorder:
     are the elements gathered under M120, `stands` is the point already reached on the first one's offset, if any.
     """
 
-    log: Log
-    record: Record = field(default_factory=Record)
     held: ProgrammedStep | None = None
     begin: Point = (0.0, 0.0)
     entry: ProgrammedStep | None = None
@@ -222,15 +221,15 @@ class CenterPathRecorder:
                 if self.entry:  # an approach without compensation
                     goal = elements.offset_start(step.element, self.entry.offset)
                     self._arrive(self.entry, goal, step.element.start_direction)
-                    self.record.close()
-                self.record.plain(step, step.element.end)
+                    self.close()
+                self.plain(step, step.element.end)
             case Role.DEPTH if self.ahead:
                 self._stop_m120(step)
             case Role.DEPTH if self.held or self.entry:
                 self.depths.append(step)
             case Role.DEPTH:
-                self.record.sink(step)
-                self.record.note(step)
+                self.sink(step)
+                self.note(step)
             case Role.ENTRY | Role.APPROACH:
                 self._enter(step)
             case Role.EXIT | Role.DEPARTURE:
@@ -239,22 +238,22 @@ class CenterPathRecorder:
     def finish(self) -> None:
         """Run what waits; the last element ends square to the contour, compensated or not."""
         self._run_out()
-        self.record.close()
+        self.close()
 
     def _enter(self, step: ProgrammedStep) -> None:
         self._run_out()  # an approach under compensation connects two contours
-        self.record.close()
+        self.close()
         self.entry = step
-        self.record.open(step)
+        self.open(step)
 
     def _leave(self, step: ProgrammedStep) -> None:
         self._run_out()
         if step.lead is None:
-            self.record.plain(step, step.element.end)
+            self.plain(step, step.element.end)
         else:
             self._depart(step, step.lead)
-        self.record.note(step)
-        self.record.close()
+        self.note(step)
+        self.close()
 
     def _run_out(self) -> None:
         """Finish what waits, because nothing follows it."""
@@ -267,42 +266,42 @@ class CenterPathRecorder:
     def _arrive(self, entry: ProgrammedStep, goal: Point, direction: Point) -> None:
         """Run the entry to the point square to the first element's start, where the element has this direction."""
         if entry.lead is None:
-            self.record.plain(entry, goal)
+            self.plain(entry, goal)
         else:
             self._approach(entry, entry.lead, goal, direction)
         self.entry = None
         self._sink_waiting()
 
     def _approach(self, step: ProgrammedStep, lead: Lead, goal: Point, direction: Point) -> None:
-        x, y, height = self.record.at(step)
+        x, y, height = self.at(step)
         curve = lead_curves.approach(lead, (x, y), goal, direction, step.hand)
         if curve is None:
             self.log.stop("HE5", INSIDE_CIRCLE, step.element, lengths=(lead.radius,))
         depth = step.element.end_height
         if lead.shape is LeadShape.LCT:
-            self.record.line(curve.point, depth, step)
+            self.line(curve.point, depth, step)
         else:
-            self.record.line(curve.point, height, step, lead=True)
+            self.line(curve.point, height, step, lead=True)
             if depth != height:
-                self.record.line(curve.point, depth, step, lead=True)
+                self.line(curve.point, depth, step, lead=True)
         self._run_curve(goal, depth, curve, step)
 
     def _depart(self, step: ProgrammedStep, lead: Lead) -> None:
-        x, y, height = self.record.at(step)
+        x, y, height = self.at(step)
         curve = lead_curves.departure(lead, (x, y), step.element.end, step.element.start_direction, step.hand)
         if curve is None:
             self.log.stop("HE5", INSIDE_CIRCLE, step.element, lengths=(lead.radius,))
         self._run_curve(curve.point, height, curve, step)
         if lead.shape is LeadShape.LCT:
-            self.record.line(step.element.end, height, step)
+            self.line(step.element.end, height, step)
         if step.element.end_height != height:
-            self.record.sink(step)
+            self.sink(step)
 
     def _run_curve(self, end: Point, height: float, curve: lead_curves.Curve, step: ProgrammedStep) -> None:
         if curve.turn:
-            self.record.arc(end, height, curve.center, curve.turn, step)
-        elif curve.point != end or self.record.at(step)[:2] != end:
-            self.record.line(end, height, step)
+            self.arc(end, height, curve.center, curve.turn, step)
+        elif curve.point != end or self.at(step)[:2] != end:
+            self.line(end, height, step)
 
     def _contour(self, step: ProgrammedStep) -> None:
         element = step.element
@@ -332,10 +331,10 @@ class CenterPathRecorder:
             self.log.inform("INTERPRETED", DEPTH_FIRST, self.depths[0].element)
         self._finish(before, joint.end)
         if joint.center is not None:
-            height, turn = self.record.at(before)[2], -1 if offset > 0.0 else 1
-            self.record.arc(joint.start, height, first.end, turn, before)
+            height, turn = self.at(before)[2], -1 if offset > 0.0 else 1
+            self.arc(joint.start, height, first.end, turn, before)
         elif joint.start != joint.end:
-            self.record.line(joint.start, first.end_height, before)
+            self.line(joint.start, first.end_height, before)
         return joint.start
 
     @staticmethod
@@ -356,17 +355,17 @@ class CenterPathRecorder:
         if element.turn and left > JOINED:
             if left >= tau * elements.offset_radius(element, step.offset) - JOINED:
                 end = self.begin
-            self.record.arc(end, element.end_height, element.center, element.turn, step, step.arc_feed)
+            self.arc(end, element.end_height, element.center, element.turn, step, step.arc_feed)
         else:
-            self.record.line(end, element.end_height, step)
-        self.record.note(step)
+            self.line(end, element.end_height, step)
+        self.note(step)
         self.held = None
         self._sink_waiting()
 
     def _sink_waiting(self) -> None:
         for step in self.depths:
-            self.record.sink(step)
-            self.record.note(step)
+            self.sink(step)
+            self.note(step)
         self.depths.clear()
 
     def _gather(self, step: ProgrammedStep) -> None:
@@ -390,13 +389,13 @@ class CenterPathRecorder:
         if isinstance(path, Unreached):
             if path.before:
                 self._run_along(steps, path.before, path.before.path)
-                self.record.note(*steps[: path.row])
+                self.note(*steps[: path.row])
             self._stop_too_large(steps[path.row], path.text, abs(steps[0].offset))
         for row in path.left_out:
             self.log.warn("M120", LEFT_OUT, steps[row].element, lengths=(abs(steps[0].offset),))
         along = path.path.part(0, len(path.path) - int(goes_on))
         self._run_along(steps, path, along)
-        self.record.note(*(steps[:-1] if goes_on else steps))
+        self.note(*(steps[:-1] if goes_on else steps))
         if goes_on:
             self.held, self.begin = steps[-1], along[-1].end if len(along) else path.start
 
@@ -409,9 +408,9 @@ class CenterPathRecorder:
             height = step.element.end_height
             if isinstance(piece, Arc):
                 feed = step.arc_feed if number == int(number) else None
-                self.record.arc(piece.end, height, piece.center, piece.turn, step, feed)
+                self.arc(piece.end, height, piece.center, piece.turn, step, feed)
             else:
-                self.record.line(piece.end, height, step)
+                self.line(piece.end, height, step)
 
     def _stop_m120(self, step: ProgrammedStep) -> NoReturn:
         self.log.stop("WORD", NOT_UNDER_M120, step.element)

@@ -11,7 +11,7 @@ from typing import Final
 from core.controls.control_run import NOT_RUN_TEXT, AlarmError, ControlRun, Log, Spot
 from core.controls.control_tools import ToolTable
 from core.controls.klartext import cycles, leads, m_functions, path_functions, setup_blocks
-from core.controls.klartext.center_path import CenterPathRecorder, Record
+from core.controls.klartext.center_path import CenterPathRecorder
 from core.controls.klartext.corner_rounding import CornerBuffer
 from core.controls.klartext.reader import Block, read_blocks
 from core.controls.klartext.state import State
@@ -51,7 +51,7 @@ def run_klartext(text: bytes, tools: ToolTable, share: float = 1.0, progress: Pr
     Tools of the table take precedence over TOOL DEF of the same number.
     """
     log = Log()
-    center = CenterPathRecorder(log, Record(share))
+    center = CenterPathRecorder(log, share)
     blocks = tuple(read_blocks(lines_of(text)))
     state = State(log, CornerBuffer(center), tools, blocks, _labels(blocks), share)
     stopped_at = None
@@ -62,12 +62,16 @@ def run_klartext(text: bytes, tools: ToolTable, share: float = 1.0, progress: Pr
     except AlarmError as alarm:
         log.add(alarm.finding)
         stopped_at = alarm.finding.line
-        center.record.close()  # what is recorded so far stays
-    tape, stretches = center.record.tape, tuple(center.record.stretches)
-    unplaced = frozenset(tape.unplaced)
-    spindle = tuple(state.spindle)
+        center.close()  # what is recorded so far stays
     return ControlRun(
-        "klartext", state.unit, tape.moves(), log.all_findings(), stopped_at, stretches, unplaced, spindle
+        "klartext",
+        state.unit,
+        center.tape.moves(),
+        log.all_findings(),
+        stopped_at,
+        tuple(center.stretches),
+        frozenset(center.tape.unplaced),
+        tuple(state.spindle),
     )
 
 

@@ -77,7 +77,7 @@ def cycle(state: State, block: Block) -> None:
         _transform(state, rest, number)
     elif number in _NEUTRAL and _is_neutral(state, block, number, rest.body):
         state.log.inform("IGNORED", f"Cycle {number} is skipped: these values turn, mirror and scale nothing.", block)
-    elif number == 247 and state.waiting.step is None and len(state.waiting.center.record.tape) == 1:
+    elif number == 247 and state.waiting.step is None and len(state.waiting.center.tape) == 1:
         # nothing has moved yet
         state.log.inform("IGNORED", "Cycle 247 selects the workpiece datum. All positions count from it.", block)
     elif number in _TRANSFORM_CYCLES or number >= _FIRST_PROBE:

@@ -115,7 +115,7 @@ class State:
     def note_spindle(self) -> None:
         """Note the tool, if it has a number, and the speed in force."""
         tool = int(self.tool) if self.tool.isdecimal() else None
-        self.spindle.append(SpindleChange(len(self.waiting.center.record.tape), tool, self.speed))
+        self.spindle.append(SpindleChange(len(self.waiting.center.tape), tool, self.speed))
 
     def words(self, block: Block, allowed: frozenset[str], pattern: Pattern[str] = WORD) -> Words:
         """Return the block's words, all of them allowed and none twice; M words have their numbers in their names."""
