@@ -11,7 +11,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from core.comp.offset import RawChain, RawPart
-from core.geometry.intersect import Meeting, Meetings, meet_pieces
+from core.geometry.intersect import MeetingKind, Meetings, meet_pieces
 from core.geometry.path import Flags, Floats, Pieces, Points, Rows, boxes, pieces_of
 from core.tolerance import ON_PATH
 
@@ -70,7 +70,7 @@ def crossings(chain: RawChain, lookahead: int, *, closed: bool) -> Candidates:
         tested = joint | (a > 0) | (b < len(chain) - 1)
         a, b, joint = a[tested], b[tested], joint[tested]
     met = meet_pieces(pieces, a, pieces, b)
-    at_joint, crossed = joint[met.pair], met.kinds[met.pair] == Meeting.CROSS
+    at_joint, crossed = joint[met.pair], met.kinds[met.pair] == MeetingKind.CROSS
     others = _chosen(met, a, b, crossed & ~at_joint)
     return Candidates(_chosen(met, a, b, at_joint), others, chain.half_steps[others.b] - chain.half_steps[others.a])
 
@@ -84,8 +84,8 @@ def _chosen(met: Meetings, a: Rows, b: Rows, chosen: Flags) -> Crossings:
         b[pair],
         met.along_a[rows],
         met.along_b[rows],
-        met.rest_a[rows] <= ON_PATH,
-        met.rest_b[rows] <= ON_PATH,
+        met.to_end_a[rows] <= ON_PATH,
+        met.to_end_b[rows] <= ON_PATH,
         met.points[rows],
     )
 

@@ -30,8 +30,8 @@ def meeting_points(first: Carrier, second: Carrier) -> list[complex]:
     """Return the points where two carriers meet: none, one or two."""
     if first.along and second.along:
         cross = (first.along.conjugate() * second.along).imag
-        reach = ((second.at - first.at).conjugate() * second.along).imag
-        return [] if abs(cross) < ANGLE_ROUNDING else [first.at + first.along * reach / cross]
+        across = ((second.at - first.at).conjugate() * second.along).imag
+        return [] if abs(cross) < ANGLE_ROUNDING else [first.at + first.along * across / cross]
     if second.along:
         return _line_meets_circle(second, first)
     return _line_meets_circle(first, second) if first.along else _circles_meet(first, second)
@@ -43,20 +43,20 @@ def carriers_meet(first: Piece, second: Piece) -> list[Point]:
 
 
 def _line_meets_circle(line: Carrier, circle: Carrier) -> list[complex]:
-    seen = (circle.at - line.at) * line.along.conjugate()
-    height = abs(seen.imag)
+    center_from_line = (circle.at - line.at) * line.along.conjugate()
+    height = abs(center_from_line.imag)
     if height > circle.radius:
         return []
     half = sqrt((circle.radius - height) * (circle.radius + height))
-    return [line.at + line.along * (seen.real + way) for way in (-half, half)]
+    return [line.at + line.along * (center_from_line.real + signed_half) for signed_half in (-half, half)]
 
 
 def _circles_meet(first: Carrier, second: Carrier) -> list[complex]:
-    apart = abs(second.at - first.at)
-    if apart <= JOINED or apart > first.radius + second.radius or apart < abs(first.radius - second.radius):
+    distance = abs(second.at - first.at)
+    if distance <= JOINED or distance > first.radius + second.radius or distance < abs(first.radius - second.radius):
         return []
-    ratio = (apart * apart + first.radius * first.radius - second.radius * second.radius) / (
-        2 * apart * (first.radius or inf)
+    ratio = (distance * distance + first.radius * first.radius - second.radius * second.radius) / (
+        2 * distance * (first.radius or inf)
     )
     base, angle = phase(second.at - first.at), acos(max(-1.0, min(1.0, ratio)))
-    return [first.at + rect(first.radius, base + way) for way in (angle, -angle)]
+    return [first.at + rect(first.radius, base + swing) for swing in (angle, -angle)]

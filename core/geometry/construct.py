@@ -43,10 +43,10 @@ def ray_to_coordinate(start: Point, angle: float, axis: int, value: float) -> tu
     if rounded or abs(along[axis]) < ANGLE_ROUNDING:
         return None
     travel = (value - start[axis]) / along[axis]
-    return _placed(axis, value, start[1 - axis] + travel * along[1 - axis]), travel >= 0.0
+    return _point_with_coordinate(axis, value, start[1 - axis] + travel * along[1 - axis]), travel >= 0.0
 
 
-def on_circle(center: Point, radius: float, axis: int, value: float) -> tuple[Point, ...] | OutOfReach:
+def points_on_circle(center: Point, radius: float, axis: int, value: float) -> tuple[Point, ...] | OutOfReach:
     """Find the points of a circle whose coordinate `axis` is `value`, the one with the greater other coordinate first.
 
     A coordinate outside the circle by no more than `ARC_RADII`, or inside by no more than `GRAZE`, gives one point, at
@@ -57,12 +57,12 @@ def on_circle(center: Point, radius: float, axis: int, value: float) -> tuple[Po
         return OutOfReach(distance)
     middle = center[1 - axis]
     if radius - distance <= GRAZE:
-        return (_placed(axis, value, middle),)
+        return (_point_with_coordinate(axis, value, middle),)
     half = sqrt((radius - distance) * (radius + distance))
-    return _placed(axis, value, middle + half), _placed(axis, value, middle - half)
+    return _point_with_coordinate(axis, value, middle + half), _point_with_coordinate(axis, value, middle - half)
 
 
-def _placed(axis: int, value: float, other: float) -> Point:
+def _point_with_coordinate(axis: int, value: float, other: float) -> Point:
     return (value, other) if axis == 0 else (other, value)
 
 
@@ -78,12 +78,12 @@ def centers(start: Point, end: Point, radius: float, turn: Turn) -> tuple[Point,
     if chord / 2 > radius + ARC_RADII:
         return OutOfReach(chord / 2)
     if radius - chord / 2 <= GRAZE:
-        return (_above(start, end, 0.0),)
+        return (_on_bisector_at_height(start, end, 0.0),)
     height = sqrt((radius - chord / 2) * (radius + chord / 2))
-    return _above(start, end, turn * height), _above(start, end, -turn * height)
+    return _on_bisector_at_height(start, end, turn * height), _on_bisector_at_height(start, end, -turn * height)
 
 
-def _above(start: Point, end: Point, height: float) -> Point:
+def _on_bisector_at_height(start: Point, end: Point, height: float) -> Point:
     """Return the point on the bisector of start and end, `height` to the left of the line from start to end."""
     dx, dy = end[0] - start[0], end[1] - start[1]
     chord = hypot(dx, dy)
@@ -99,7 +99,7 @@ def center_by_sweep(start: Point, end: Point, sweep: float, turn: Turn) -> Point
     half = sin(sweep / 2)
     if chord <= ON_PATH or abs(half) < ANGLE_ROUNDING:
         return None
-    return _above(start, end, turn * chord / 2 * cos(sweep / 2) / half)
+    return _on_bisector_at_height(start, end, turn * chord / 2 * cos(sweep / 2) / half)
 
 
 def center_by_coordinate(start: Point, end: Point, axis: int, value: float) -> Point | None:
@@ -111,7 +111,7 @@ def center_by_coordinate(start: Point, end: Point, axis: int, value: float) -> P
     if abs(across) <= max(CLOSED, MIN_INDEPENDENT_SINE * abs(along)):
         return None
     middle = ((start[0] + end[0]) / 2, (start[1] + end[1]) / 2)
-    return _placed(axis, value, middle[1 - axis] - (value - middle[axis]) * along / across)
+    return _point_with_coordinate(axis, value, middle[1 - axis] - (value - middle[axis]) * along / across)
 
 
 def rotated(point: Point, center: Point, angle: float) -> Point:
@@ -123,31 +123,31 @@ def rotated(point: Point, center: Point, angle: float) -> Point:
 def on_bisector(start: Place, end: Place, center: Place) -> Place:
     """Return the point nearest to `center` that is equally far from `start` and `end`; complex, single or (n,) each."""
     chord = end - start
-    off: Place = center - (start + end) / 2.0
-    return center - (chord.conjugate() * off).real * chord / abs(chord) ** 2
+    from_middle: Place = center - (start + end) / 2.0
+    return center - (chord.conjugate() * from_middle).real * chord / abs(chord) ** 2
 
 
-def even_arc(start: Point, end: Point, center: Point, turn: Turn) -> Arc:
+def exact_arc(start: Point, end: Point, center: Point, turn: Turn) -> Arc:
     """Return an exact arc close to ends and a center whose radii agree within `ARC_RADII`.
 
     Ends that are one point make a full circle.  Otherwise the center moves onto the bisector of the ends; if
     that is farther than `ARC_RADII`, as on a chord much shorter than the radius, the end moves onto the circle.
     """
     radius = hypot(start[0] - center[0], start[1] - center[1])
-    out = hypot(end[0] - center[0], end[1] - center[1])
+    end_radius = hypot(end[0] - center[0], end[1] - center[1])
     chord = hypot(end[0] - start[0], end[1] - start[1])
     if chord <= JOINED:
         return Arc(start, start, center, turn)
-    if abs(out - radius) <= ON_PATH:
+    if abs(end_radius - radius) <= ON_PATH:
         return Arc(start, end, center, turn)
     moved = on_bisector(complex(*start), complex(*end), complex(*center))
     if abs(moved - complex(*center)) <= ARC_RADII:
         return Arc(start, end, (moved.real, moved.imag), turn)
-    scale = radius / out if out else 0.0
-    onto = (center[0] + (end[0] - center[0]) * scale, center[1] + (end[1] - center[1]) * scale)
+    scale = radius / end_radius if end_radius else 0.0
+    end_on_circle = (center[0] + (end[0] - center[0]) * scale, center[1] + (end[1] - center[1]) * scale)
     # rounding must not decide between a full circle and an empty arc
-    same = hypot(onto[0] - start[0], onto[1] - start[1]) <= JOINED
-    return Arc(start, start if same else onto, center, turn)
+    same = hypot(end_on_circle[0] - start[0], end_on_circle[1] - start[1]) <= JOINED
+    return Arc(start, start if same else end_on_circle, center, turn)
 
 
 def chord_factor(sweep: float) -> float:

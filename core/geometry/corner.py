@@ -58,40 +58,40 @@ def fillet(before: Piece, after: Piece, radius: float) -> Corner | NoCorner:
 
     Of several arcs that fit, take the one that removes the least length from both pieces together.
     """
-    turned = _turned(before, after)
-    if abs(turned) * radius <= JOINED:
+    turn_angle = _turn_angle(before, after)
+    if abs(turn_angle) * radius <= JOINED:
         return NoCorner(Reason.TANGENT)
     lines = isinstance(before, Line) and isinstance(after, Line)
-    if lines and abs(turned) > tau / 2 - ANGLE_ROUNDING:
+    if lines and abs(turn_angle) > tau / 2 - ANGLE_ROUNDING:
         return NoCorner(Reason.REVERSAL)
-    turns = (Turn.CCW if turned > 0 else Turn.CW,) if lines else (Turn.CCW, Turn.CW)
-    fits = [fit for turn in turns for fit in _touching(before, after, radius, turn)]
+    turns = (Turn.CCW if turn_angle > 0 else Turn.CW,) if lines else (Turn.CCW, Turn.CW)
+    fits = [fit for turn in turns for fit in _touching_arcs(before, after, radius, turn)]
     if fits:
-        return _cut(before, after, min(fits, key=lambda fit: fit.removed).arc)
+        return _rounded_corner(before, after, min(fits, key=lambda fit: fit.removed).arc)
     if lines:
-        return NoCorner(Reason.TOO_LARGE, min(before.length, after.length) / tan(abs(turned) / 2))
+        return NoCorner(Reason.TOO_LARGE, min(before.length, after.length) / tan(abs(turn_angle) / 2))
     return NoCorner(Reason.TOO_LARGE, _largest_radius(before, after, radius))
 
 
-def _largest_radius(before: Piece, after: Piece, fails: float) -> float | None:
-    """Return the largest radius below one that fails at which an arc touches both pieces, None if none was found.
+def _largest_radius(before: Piece, after: Piece, too_large: float) -> float | None:
+    """Return the largest radius below `too_large` at which an arc touches both pieces, None if none was found.
 
     Between two arcs a radius may fit, a smaller one fail and a still smaller one fit again: several are tried first.
     """
 
     def fits(radius: float) -> bool:
-        return any(_touching(before, after, radius, turn) for turn in (Turn.CCW, Turn.CW))
+        return any(_touching_arcs(before, after, radius, turn) for turn in (Turn.CCW, Turn.CW))
 
-    clean = 0.0
-    for tried in (fails * share / TRIED_RADII for share in range(TRIED_RADII - 1, 0, -1)):
+    fitting = 0.0
+    for tried in (too_large * share / TRIED_RADII for share in range(TRIED_RADII - 1, 0, -1)):
         if fits(tried):
-            clean = tried
+            fitting = tried
             break
-        fails = tried
+        too_large = tried
     for _ in range(HALVINGS):
-        middle = (clean + fails) / 2.0
-        clean, fails = (middle, fails) if fits(middle) else (clean, middle)
-    return clean if clean > JOINED else None
+        middle = (fitting + too_large) / 2.0
+        fitting, too_large = (middle, too_large) if fits(middle) else (fitting, middle)
+    return fitting if fitting > JOINED else None
 
 
 class _Fit(NamedTuple):
@@ -101,10 +101,10 @@ class _Fit(NamedTuple):
     removed: float
 
 
-def _touching(before: Piece, after: Piece, radius: float, turn: Turn) -> list[_Fit]:
+def _touching_arcs(before: Piece, after: Piece, radius: float, turn: Turn) -> list[_Fit]:
     fits, left = [], turn * radius
     for center in meeting_points(carrier(before, left), carrier(after, left)):
-        first, last = _foot(before, center, left), _foot(after, center, left)
+        first, last = _touch_point(before, center, left), _touch_point(after, center, left)
         if first is None or last is None or abs(first - last) <= JOINED:
             continue
         kept, removed = _travel(before, first), _travel(after, last)
@@ -114,7 +114,7 @@ def _touching(before: Piece, after: Piece, radius: float, turn: Turn) -> list[_F
     return fits
 
 
-def _foot(piece: Piece, center: complex, left: float) -> complex | None:
+def _touch_point(piece: Piece, center: complex, left: float) -> complex | None:
     """Return where a circle about `center`, `left` to the left of a carrier, touches it; None about its own center."""
     if isinstance(piece, Line):
         return center - 1j * complex(*piece.direction_at(piece.start)) * left
@@ -132,7 +132,7 @@ def _travel(piece: Piece, at: complex) -> float:
     return piece.radius * (angle - tau if angle > tau - JOINED / piece.radius else angle)
 
 
-def _cut(before: Piece, after: Piece, arc: Arc) -> Corner:
+def _rounded_corner(before: Piece, after: Piece, arc: Arc) -> Corner:
     kept, removed = _travel(before, complex(*arc.start)), _travel(after, complex(*arc.end))
     return Corner(
         replace(before, end=arc.start) if kept > JOINED else None,
@@ -143,12 +143,12 @@ def _cut(before: Piece, after: Piece, arc: Arc) -> Corner:
 
 def chamfer(before: Piece, after: Piece, length: float) -> Corner | NoCorner:
     """Cut off the corner where `before` ends and `after` starts (both with a length) by `length` mm on both pieces."""
-    if abs(_turned(before, after)) * length <= JOINED:
+    if abs(_turn_angle(before, after)) * length <= JOINED:
         return NoCorner(Reason.TANGENT)
-    largest = min(_reach(before), _reach(after))
+    largest = min(_largest_setback(before), _largest_setback(after))
     if length > largest + JOINED:
         return NoCorner(Reason.TOO_LARGE, largest)
-    first, last = _back(before, length, at_end=True), _back(after, length, at_end=False)
+    first, last = _setback_point(before, length, at_end=True), _setback_point(after, length, at_end=False)
     if abs(complex(*first) - complex(*last)) <= JOINED:
         return NoCorner(Reason.REVERSAL)
     return Corner(
@@ -158,20 +158,20 @@ def chamfer(before: Piece, after: Piece, length: float) -> Corner | NoCorner:
     )
 
 
-def _turned(before: Piece, after: Piece) -> float:
+def _turn_angle(before: Piece, after: Piece) -> float:
     """Return the angle from the direction at the end of `before` to that at the start of `after`, left positive."""
     arriving, leaving = complex(*before.direction_at(before.end)), complex(*after.direction_at(after.start))
     return phase(leaving * arriving.conjugate())
 
 
-def _reach(piece: Piece) -> float:
+def _largest_setback(piece: Piece) -> float:
     """Return the largest length along the tangent at the corner that fits a piece: for an arc at most its radius."""
     if isinstance(piece, Line):
         return piece.length
     return piece.radius * sin(min(abs(piece.sweep), pi / 2))
 
 
-def _back(piece: Piece, length: float, *, at_end: bool) -> Point:
+def _setback_point(piece: Piece, length: float, *, at_end: bool) -> Point:
     """Return the point of a piece that is `length` away along the tangent at its end, or at its start."""
     if isinstance(piece, Line):
         part = min(length / piece.length, 1.0)

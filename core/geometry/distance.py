@@ -31,17 +31,17 @@ def _line_foot(line: PieceArrays, points: Points) -> Floats:
 
 
 def _line_distance(line: PieceArrays, points: Points) -> Floats:
-    off = points - line.start
-    return np.abs(off - _line_share(line, off) * line.vector)
+    from_start = points - line.start
+    return np.abs(from_start - _line_share(line, from_start) * line.vector)
 
 
-def _line_share(line: PieceArrays, off: Points) -> Floats:
-    """Return the fractions at which lines are nearest to points at `off` from their starts.
+def _line_share(line: PieceArrays, from_start: Points) -> Floats:
+    """Return the fractions at which lines are nearest to points at `from_start` from their starts.
 
     A line so short that its squared length is 0 counts as a point.
     """
     square = line.length * line.length
-    share = (off * np.conj(line.vector)).real / np.where(square == 0.0, 1.0, square)
+    share = (from_start * np.conj(line.vector)).real / np.where(square == 0.0, 1.0, square)
     return np.minimum(np.maximum(share, 0.0), 1.0)
 
 
@@ -57,42 +57,42 @@ def _arc_distance(arc: PieceArrays, points: Points) -> Floats:
     return np.where(traveled(arc, radial) <= arc.angle, np.abs(np.abs(radial) - arc.radius), to_ends)
 
 
-def on_line(pieces: PieceArrays, through: Points, unit: Points) -> Floats:
+def fractions_on_line(pieces: PieceArrays, through: Points, unit: Points) -> Floats:
     """Return the (2, ..., n) fractions at which the pieces meet endless lines through points along `unit`; else nan."""
     return by_kind(pieces.arcs, _line_on_line, _arc_on_line, pieces, through, unit)
 
 
-def on_circle(pieces: PieceArrays, center: Points, radius: Floats) -> Floats:
+def fractions_on_circle(pieces: PieceArrays, center: Points, radius: Floats) -> Floats:
     """Return the (2, ..., n) fractions at which the pieces, lines extended, meet whole circles; nan for none."""
     return by_kind(pieces.arcs, _line_on_circle, _arc_on_circle, pieces, center, radius)
 
 
 def _line_on_line(line: PieceArrays, through: Points, unit: Points) -> Floats:
-    met = ((through - line.start) * np.conj(unit)).imag / (line.vector * np.conj(unit)).imag
-    return np.array((met, met))
+    fraction = ((through - line.start) * np.conj(unit)).imag / (line.vector * np.conj(unit)).imag
+    return np.array((fraction, fraction))
 
 
 def _arc_on_line(arc: PieceArrays, through: Points, unit: Points) -> Floats:
     normal = 1j * unit
     height = ((through - arc.center) * np.conj(normal)).real
-    return _fan(arc, normal, (arc.radius - height) / (2.0 * arc.radius))
+    return _fractions_beside_axis(arc, normal, (arc.radius - height) / (2.0 * arc.radius))
 
 
 def _line_on_circle(line: PieceArrays, center: Points, radius: Floats) -> Floats:
     unit = line.unit
-    seen = (center - line.start) * np.conj(unit)
-    half = np.sqrt((radius - seen.imag) * (radius + seen.imag))
-    return np.array((seen.real - half, seen.real + half)) / line.length
+    center_from_start = (center - line.start) * np.conj(unit)
+    half = np.sqrt((radius - center_from_start.imag) * (radius + center_from_start.imag))
+    return np.array((center_from_start.real - half, center_from_start.real + half)) / line.length
 
 
 def _arc_on_circle(arc: PieceArrays, center: Points, radius: Floats) -> Floats:
-    between = center - arc.center
-    size = np.abs(between)
-    over = size - arc.radius
-    return _fan(arc, between, (radius - over) * (radius + over) / (4.0 * arc.radius * size))
+    to_center = center - arc.center
+    size = np.abs(to_center)
+    excess = size - arc.radius
+    return _fractions_beside_axis(arc, to_center, (radius - excess) * (radius + excess) / (4.0 * arc.radius * size))
 
 
-def _fan(arc: PieceArrays, axis: Points, share: Floats) -> Floats:
+def _fractions_beside_axis(arc: PieceArrays, axis: Points, share: Floats) -> Floats:
     """Return the fractions at the two directions from the arc's center that are at an angle a to either side of `axis`,
     with `share` = sin(a / 2) squared: unlike cos(a), it stays accurate near a touch, where a is almost 0."""
     half = 2.0 * np.arcsin(np.sqrt(share))
@@ -106,8 +106,8 @@ def nearest_fractions(pieces: PieceArrays, other: PieceArrays) -> Floats:
     ends = np.repeat([[0.0], [1.0]], len(pieces), axis=1)
     crossings = by_kind(
         other.arcs,
-        lambda: on_line(pieces, other.start, other.unit),
-        lambda: on_circle(pieces, other.center, other.radius),
+        lambda: fractions_on_line(pieces, other.start, other.unit),
+        lambda: fractions_on_circle(pieces, other.center, other.radius),
     )
     return _clamped(np.concatenate((ends, crossings, feet(pieces, other))))
 
@@ -140,10 +140,10 @@ def _outline(pieces: PieceArrays, other: PieceArrays, reach: Floats) -> Floats:
     bent, ends = other.arcs, (other.start, other.end)
     arcs = np.count_nonzero(bent)
     if not arcs:
-        caps = on_circle(pieces, np.array(ends), np.array((reach, reach)))
+        caps = fractions_on_circle(pieces, np.array(ends), np.array((reach, reach)))
         return np.concatenate((caps, _sides(pieces, other, reach)), axis=1).reshape(8, -1)
     center, radii = other.center, (reach, reach, other.radius + reach, np.abs(other.radius - reach))
-    met = on_circle(pieces, np.array((*ends, center, center)), np.array(radii))
+    met = fractions_on_circle(pieces, np.array((*ends, center, center)), np.array(radii))
     if arcs < len(bent):
         met[:, 2:] = np.where(bent, met[:, 2:], _sides(pieces, other, reach))
     return met.reshape(8, -1)
@@ -151,8 +151,8 @@ def _outline(pieces: PieceArrays, other: PieceArrays, reach: Floats) -> Floats:
 
 def _sides(pieces: PieceArrays, line: PieceArrays, reach: Floats) -> Floats:
     unit = line.unit
-    off = 1j * reach * unit
-    return on_line(pieces, np.array((line.start + off, line.start - off)), unit)
+    normal = 1j * reach * unit
+    return fractions_on_line(pieces, np.array((line.start + normal, line.start - normal)), unit)
 
 
 def _clamped(fractions: Floats) -> Floats:
@@ -182,10 +182,10 @@ def _arc_fractions(arc: PieceArrays, directions: Points) -> Floats:
 
 def _equidistant_fractions(pieces: PieceArrays, arc: PieceArrays) -> Floats:
     middle = arc.arm / arc.radius * np.exp(0.5j * arc.turn * arc.angle)
-    fractions = on_line(pieces, arc.center, middle)
+    fractions = fractions_on_line(pieces, arc.center, middle)
     return np.concatenate((fractions, fractions))
 
 
-def between(pieces: PieceArrays, other: PieceArrays, fractions: Floats) -> Floats:
+def distances_at(pieces: PieceArrays, other: PieceArrays, fractions: Floats) -> Floats:
     """Return the (k, n) distances of the points at `fractions` (k, n) of each piece from its partner in `other`."""
     return distance(other, at(pieces, fractions))

@@ -16,13 +16,13 @@ from numpy.typing import NDArray
 from core.geometry.path import Flags, Floats, Path, Pieces, Points, Rows, pieces_of, swept
 from core.tolerance import JOINED, ON_PATH
 
-_ROOM: Final = 1e-6
+_SECTOR_SLACK: Final = 1e-6
 """Share of the radius by which the sector test is too generous; the exact test follows it."""
 _ANGLE_ROUNDING: Final = 1e-14
 """Largest rounding error of a calculated angle, radians: a few units in the last place of a full turn."""
 
 
-class Meeting(IntEnum):
+class MeetingKind(IntEnum):
     """How two pieces meet."""
 
     APART = 0
@@ -42,15 +42,15 @@ class Meetings(NamedTuple):
     """
 
     kinds: NDArray[np.int8]
-    """(k,) a `Meeting` for each pair."""
+    """(k,) a `MeetingKind` for each pair."""
     pair: Rows
     """(p,) the row of each point's pair."""
     along_a: Floats
     """(p,) distance of the point from the start of a."""
     along_b: Floats
-    rest_a: Floats
+    to_end_a: Floats
     """(p,) distance of the point from the end of a."""
-    rest_b: Floats
+    to_end_b: Floats
     points: Points
     """(p,)"""
 
@@ -70,10 +70,15 @@ def meet_pieces(first: Pieces, a: Rows, second: Pieces, b: Rows) -> Meetings:
     kinds = np.zeros(len(a), np.int8)
     arc_a, arc_b = first.turn[a].astype(np.bool_), second.turn[b].astype(np.bool_)
     line_a, line_b = ~arc_a, ~arc_b
-    which = (line_a & line_b, _lines), (arc_a & line_b, _arc_line), (line_a & arc_b, _line_arc), (arc_a & arc_b, _arcs)
+    solvers = (
+        (line_a & line_b, _lines),
+        (arc_a & line_b, _arc_line),
+        (line_a & arc_b, _line_arc),
+        (arc_a & arc_b, _arcs),
+    )
     parts = []
-    for these, solve in which:
-        rows = these.nonzero()[0]
+    for chosen, solve in solvers:
+        rows = chosen.nonzero()[0]
         if len(rows):
             met = solve(first.take(a[rows]), second.take(b[rows]))
             kinds[rows] = met.kinds
@@ -103,10 +108,10 @@ def _lines(a: Pieces, b: Pieces) -> Meetings:
     part = (between.conj() * span_b).imag / divisor
     along_a, along_b = part * length_a, (between.conj() * span_a).imag / divisor * length_b
     on = (_within(along_a, length_a) & _within(along_b, length_b) & ~parallel).nonzero()[0]
-    rests = (length_a - along_a)[on], (length_b - along_b)[on]
+    to_ends = (length_a - along_a)[on], (length_b - along_b)[on]
     kinds = np.zeros(len(cross), np.int8)
-    kinds[on] = Meeting.CROSS.value
-    met = Meetings(kinds, on, along_a[on], along_b[on], *rests, (a.start + part * span_a)[on])
+    kinds[on] = MeetingKind.CROSS.value
+    met = Meetings(kinds, on, along_a[on], along_b[on], *to_ends, (a.start + part * span_a)[on])
     rows = (parallel & (length_a > 0.0) & (length_b > 0.0)).nonzero()[0]
     if not len(rows):
         return met
@@ -125,11 +130,11 @@ def _parallel(a: Pieces, b: Pieces) -> Meetings:
     common = np.minimum(np.maximum(first.real, last.real), length) - low
     in_line = np.minimum(np.abs(first.imag), np.abs(last.imag)) <= ON_PATH
     touch = (in_line & (np.abs(common) <= ON_PATH)).nonzero()[0]
-    kinds = np.where(in_line & (common > ON_PATH), Meeting.OVERLAP.value, Meeting.APART.value).astype(np.int8)
-    kinds[touch] = Meeting.TOUCH.value
+    kinds = np.where(in_line & (common > ON_PATH), MeetingKind.OVERLAP.value, MeetingKind.APART.value).astype(np.int8)
+    kinds[touch] = MeetingKind.TOUCH.value
     along_a, along_b = low[touch], np.abs(low - first.real)[touch]
-    rests = length[touch] - along_a, np.abs(other[touch]) - along_b
-    return Meetings(kinds, touch, along_a, along_b, *rests, (a.start + low * unit)[touch])
+    to_ends = length[touch] - along_a, np.abs(other[touch]) - along_b
+    return Meetings(kinds, touch, along_a, along_b, *to_ends, (a.start + low * unit)[touch])
 
 
 def _line_arc(line: Pieces, arc: Pieces) -> Meetings:
@@ -139,43 +144,43 @@ def _line_arc(line: Pieces, arc: Pieces) -> Meetings:
     unit = span / np.where(length == 0.0, 1.0, length)
     foot = unit.conj() * (arc.center - line.start)
     height = np.abs(foot.imag)
-    room = radius - height
-    pair, half = _half_chords(np.sqrt(np.maximum(room * (radius + height), 0.0)), room)
+    overlap = radius - height
+    pair, half = _half_chords(np.sqrt(np.maximum(overlap * (radius + height), 0.0)), overlap)
     along = foot.real[pair] + half
     on = _within(along, length[pair]).nonzero()[0]
     pair, along = pair[on], along[on]
     points = line.start[pair] + along * unit[pair]
     near = _in_sector(points, arc.take(pair)).nonzero()[0]
     pair, along, points = pair[near], along[near], points[near]
-    run, rest = _along_arc(points, arc.take(pair), radius[pair])
-    return _on_both(room, pair, along, run, length[pair] - along, rest, points)
+    from_start, to_end = _along_arc(points, arc.take(pair), radius[pair])
+    return _on_both(overlap, pair, along, from_start, length[pair] - along, to_end, points)
 
 
 def _arc_line(arc: Pieces, line: Pieces) -> Meetings:
-    kinds, pair, along, run, left, rest, points = _line_arc(line, arc)
-    return _as_traveled(Meetings(kinds, pair, run, along, rest, left, points))
+    kinds, pair, along_line, along_arc, to_line_end, to_arc_end, points = _line_arc(line, arc)
+    return _as_traveled(Meetings(kinds, pair, along_arc, along_line, to_arc_end, to_line_end, points))
 
 
 def _arcs(a: Pieces, b: Pieces) -> Meetings:
     """Meet arcs with arcs: half the common chord by Heron's formula, which stays accurate near tangency."""
     between, big, small = b.center - a.center, np.abs(a.start - a.center), np.abs(b.start - b.center)
-    apart, total, differ = np.abs(between), big + small, big - small
-    concentric = apart <= ON_PATH
-    divisor = np.where(concentric, 1.0, apart)
-    area = (total + apart) * (total - apart) * (apart + differ) * (apart - differ)
-    room = np.where(concentric, -np.inf, np.minimum(total - apart, apart - np.abs(differ)))
-    pair, half = _half_chords(np.sqrt(np.maximum(area, 0.0)) / (2.0 * divisor), room)
-    foot = (apart + differ * total / divisor) / 2.0
+    distance, total, difference = np.abs(between), big + small, big - small
+    concentric = distance <= ON_PATH
+    divisor = np.where(concentric, 1.0, distance)
+    area = (total + distance) * (total - distance) * (distance + difference) * (distance - difference)
+    overlap = np.where(concentric, -np.inf, np.minimum(total - distance, distance - np.abs(difference)))
+    pair, half = _half_chords(np.sqrt(np.maximum(area, 0.0)) / (2.0 * divisor), overlap)
+    foot = (distance + difference * total / divisor) / 2.0
     points = a.center[pair] + (between / divisor)[pair] * (foot[pair] + 1j * half)
     near = _in_sector(points, a.take(pair)).nonzero()[0]
     near = near[_in_sector(points[near], b.take(pair[near]))]
     pair, points = pair[near], points[near]
-    run_a, rest_a = _along_arc(points, a.take(pair), big[pair])
-    run_b, rest_b = _along_arc(points, b.take(pair), small[pair])
-    met = _as_traveled(_on_both(room, pair, run_a, run_b, rest_a, rest_b, points))
-    rows = (concentric & (np.abs(differ) <= ON_PATH)).nonzero()[0]
+    along_a, to_end_a = _along_arc(points, a.take(pair), big[pair])
+    along_b, to_end_b = _along_arc(points, b.take(pair), small[pair])
+    met = _as_traveled(_on_both(overlap, pair, along_a, along_b, to_end_a, to_end_b, points))
+    rows = (concentric & (np.abs(difference) <= ON_PATH)).nonzero()[0]
     if len(rows):
-        met.kinds[rows[_overlap(a.take(rows), b.take(rows))]] = Meeting.OVERLAP.value
+        met.kinds[rows[_overlap(a.take(rows), b.take(rows))]] = MeetingKind.OVERLAP.value
     return met
 
 
@@ -185,20 +190,20 @@ def _in_sector(point: Points, arc: Pieces) -> Flags:
     For an arc of half a turn or more, or with ends that are nearly one point, it is enough to be past either ray.
     """
     first, last, radial = arc.start - arc.center, arc.end - arc.center, point - arc.center
-    room = _ROOM * np.maximum(np.abs(first), 1.0)
-    after_first = (first.conj() * radial).imag * arc.turn >= -room
-    before_last = (radial.conj() * last).imag * arc.turn >= -room
-    minor = (first.conj() * last).imag * arc.turn > room
+    slack = _SECTOR_SLACK * np.maximum(np.abs(first), 1.0)
+    after_first = (first.conj() * radial).imag * arc.turn >= -slack
+    before_last = (radial.conj() * last).imag * arc.turn >= -slack
+    minor = (first.conj() * last).imag * arc.turn > slack
     return np.where(minor, after_first & before_last, after_first | before_last)
 
 
-def _half_chords(half: Floats, room: Floats) -> tuple[Rows, Floats]:
+def _half_chords(half: Floats, overlap: Floats) -> tuple[Rows, Floats]:
     """Return the pairs with a common chord, each twice in a row, and the signed halves of it, the negative one first.
 
-    Halves no longer than JOINED make one point, the foot between them: that pair comes once, with 0.  `room` is how far
-    the pair overlaps beyond tangency; below -ON_PATH there is no chord.
+    Halves no longer than JOINED make one point, the foot between them: that pair comes once, with 0.  `overlap` is how
+    far the pair overlaps beyond tangency; below -ON_PATH there is no chord.
     """
-    rows = (room >= -ON_PATH).nonzero()[0]
+    rows = (overlap >= -ON_PATH).nonzero()[0]
     pair = np.repeat(rows, np.where(half[rows] > JOINED, 2, 1))
     signed = np.where(half[pair] > JOINED, half[pair], 0.0)
     signed[:-1] *= np.where(pair[1:] == pair[:-1], -1.0, 1.0)
@@ -219,9 +224,9 @@ def _middle(arc: Pieces) -> Points:
 def _inside(arc: Pieces, point: Points) -> Flags:
     """True if a point of the arc's circle is on the arc, off its ends.  The angle's rounding scales with the radius."""
     radius = np.abs(arc.start - arc.center)
-    run, rest = _along_arc(point, arc, radius)
-    room = np.maximum(ON_PATH, _ANGLE_ROUNDING * radius)
-    return (run > room) & (rest > room)
+    from_start, to_end = _along_arc(point, arc, radius)
+    slack = np.maximum(ON_PATH, _ANGLE_ROUNDING * radius)
+    return (from_start > slack) & (to_end > slack)
 
 
 def _turned(arc: Pieces, point: Points) -> Floats:
@@ -237,21 +242,23 @@ def _along_arc(point: Points, arc: Pieces, radius: Floats) -> tuple[Floats, Floa
     A point off the arc counts from the nearer end: the first distance is negative before the start, the second one
     past the end.
     """
-    run, length, whole = _turned(arc, point) * radius, swept(arc) * radius, tau * radius
-    run = np.where((run > length) & (whole - run < run - length), run - whole, run)
-    return run, length - run
+    from_start, length, full_turn = _turned(arc, point) * radius, swept(arc) * radius, tau * radius
+    from_start = np.where(
+        (from_start > length) & (full_turn - from_start < from_start - length), from_start - full_turn, from_start
+    )
+    return from_start, length - from_start
 
 
 def _within(along: Floats, length: Floats) -> Flags:
     return (along >= -ON_PATH) & (along <= length + ON_PATH)
 
 
-def _on_both(room: Floats, pair: Rows, *columns: NDArray[Any]) -> Meetings:
-    """Return the points that lie on both pieces; pairs with `room` (k,) of no more than ON_PATH touch, others cross."""
-    along_a, along_b, rest_a, rest_b, _ = columns
-    on = np.minimum(np.minimum(along_a, along_b), np.minimum(rest_a, rest_b)) >= -ON_PATH
-    kinds, pair = np.zeros(len(room), np.int8), pair[on]
-    kinds[pair] = np.where(np.abs(room[pair]) <= ON_PATH, Meeting.TOUCH.value, Meeting.CROSS.value)
+def _on_both(overlap: Floats, pair: Rows, *columns: NDArray[Any]) -> Meetings:
+    """Return the points on both pieces; pairs that `overlap` (k,) by no more than ON_PATH touch, others cross."""
+    along_a, along_b, to_end_a, to_end_b, _ = columns
+    on = np.minimum(np.minimum(along_a, along_b), np.minimum(to_end_a, to_end_b)) >= -ON_PATH
+    kinds, pair = np.zeros(len(overlap), np.int8), pair[on]
+    kinds[pair] = np.where(np.abs(overlap[pair]) <= ON_PATH, MeetingKind.TOUCH.value, MeetingKind.CROSS.value)
     return Meetings(kinds, pair, *(column[on] for column in columns))
 
 

@@ -81,7 +81,7 @@ def near_pairs(first: Floats, second: Floats | BoxTree, reach: float) -> Batches
         i += start
         start += count
         # the grown boxes have square corners, which lie beyond `reach`
-        near = ~(_apart(first.take(i, axis=1), boxes.take(j, axis=1)) > reach)
+        near = ~(_box_distances(first.take(i, axis=1), boxes.take(j, axis=1)) > reach)
         yield i[near], j[near]
         count = min(BATCH_QUERIES, 2 * count) if len(i) < BATCH_PAIRS else max(1, count // 2)
 
@@ -98,15 +98,15 @@ def near_pairs_within(boxes: Floats, reach: float) -> Batches:
     runs = np.concatenate(corners)
     left, right = np.ascontiguousarray(boxes[0]), np.ascontiguousarray(boxes[2])
     for a, b in near_pairs(runs, runs, reach):
-        once = a <= b
-        a, b = a[once], b[once]
+        ordered = a <= b
+        a, b = a[ordered], b[ordered]
         for first in range(0, len(a), BATCH_PAIRS // BOXES_PER_RUN):
             part = slice(first, first + BATCH_PAIRS // BOXES_PER_RUN)
             i, j = _members_of_runs(a[part], b[part], boxes.shape[1])
             # most pairs are already too far apart along x
             near = ~(np.maximum(left[i] - right[j], left[j] - right[i]) > reach)
             i, j = i[near], j[near]
-            near = ~(_apart(boxes.take(i, axis=1), boxes.take(j, axis=1)) > reach)
+            near = ~(_box_distances(boxes.take(i, axis=1), boxes.take(j, axis=1)) > reach)
             yield i[near], j[near]
 
 
@@ -114,8 +114,8 @@ def _members_of_runs(a: Rows, b: Rows, count: int) -> tuple[Rows, Rows]:
     """Return all pairs i < j of boxes in the paired runs a, b; there are `count` boxes in all."""
     i, j = np.divmod(np.arange(BOXES_PER_RUN * BOXES_PER_RUN), BOXES_PER_RUN)
     i, j = (a[:, None] * BOXES_PER_RUN + i).ravel(), (b[:, None] * BOXES_PER_RUN + j).ravel()
-    once = (i < j) & (j < count)
-    return i[once], j[once]
+    ordered = (i < j) & (j < count)
+    return i[ordered], j[ordered]
 
 
 def sorted_pairs(batches: Iterable[tuple[Rows, Rows]]) -> tuple[Rows, Rows]:
@@ -146,7 +146,7 @@ def _diagonals(boxes: Floats) -> np.ndarray[tuple[int], np.dtype[np.object_]]:
     return lines
 
 
-def _apart(first: Floats, second: Floats) -> Floats:
+def _box_distances(first: Floats, second: Floats) -> Floats:
     """Return the distances between boxes, 0 where they meet."""
     gaps = np.maximum(np.maximum(first[:2] - second[2:], second[:2] - first[2:]), 0.0)
     distances: Floats = np.hypot(gaps[0], gaps[1])
@@ -185,11 +185,11 @@ class CoarseChords:
         """(n,) first and last points."""
         return self.middle - self.half, self.middle + self.half
 
-    def off(self, rows: Rows, points: Points) -> Points:
+    def vectors_to(self, rows: Rows, points: Points) -> Points:
         """Return the vector to each point (m,) from the nearest point of the chord in its row."""
-        away, half = points - self.middle.take(rows), self.half.take(rows)
-        share = (away * half.conj()).real / self.square.take(rows)
-        return away - np.minimum(np.maximum(share, -1.0), 1.0) * half
+        from_middle, half = points - self.middle.take(rows), self.half.take(rows)
+        share = (from_middle * half.conj()).real / self.square.take(rows)
+        return from_middle - np.minimum(np.maximum(share, -1.0), 1.0) * half
 
 
 ChordLevels = tuple[CoarseChords, ...]
@@ -215,10 +215,10 @@ def _grouped(members: CoarseChords) -> CoarseChords:
     starts, ends = members.ends
     chords = CoarseChords.between(starts[begins], ends[lasts], np.zeros(len(begins)))
     group = np.arange(len(members)) // MEMBERS_PER_RUN
-    off = np.maximum(*(np.abs(chords.off(group, points)) for points in (starts, ends))) + members.slack
+    distances = np.maximum(*(np.abs(chords.vectors_to(group, points)) for points in (starts, ends))) + members.slack
     gaps = np.append(0.0, np.abs(starts[1:] - ends[:-1]))
     gaps[begins] = 0.0
-    slack = np.maximum.reduceat(off, begins) + np.maximum.reduceat(gaps, begins)
+    slack = np.maximum.reduceat(distances, begins) + np.maximum.reduceat(gaps, begins)
     box = _per_axis(np.minimum.reduceat, members.low, begins), _per_axis(np.maximum.reduceat, members.high, begins)
     return CoarseChords.between(starts[begins], ends[lasts], slack, box)
 
@@ -237,34 +237,34 @@ def nearest_pairs(pieces: PieceArrays, others: PieceArrays, tie: float) -> tuple
         return np.zeros(0, np.intp), np.zeros(0, np.intp)
     both = len(pieces) + len(others)
     typical = MAX_CHORD_LENGTHS * min(float(np.median(path.length)) for path in (pieces, others))
-    first, rows = _parted(pieces, typical, both)
-    second, columns = _parted(others, typical, both)
-    batches = [rows[i] * len(others) + columns[j] for i, j in _searched(first, second, tie)]
+    first, rows = _split_into_chords(pieces, typical, both)
+    second, columns = _split_into_chords(others, typical, both)
+    batches = [rows[i] * len(others) + columns[j] for i, j in _nearest_chord_pairs(first, second, tie)]
     pairs = np.concatenate(batches)
     # np.unique takes ten times as long
     pairs.sort()
     return np.divmod(pairs[changes(pairs)], len(others))
 
 
-def _parted(pieces: PieceArrays, typical: float, most: int) -> tuple[CoarseChords, Rows]:
+def _split_into_chords(pieces: PieceArrays, typical: float, max_extra_parts: int) -> tuple[CoarseChords, Rows]:
     """Return chords of the pieces and the row of each chord's piece; those longer than `typical` are split into at most
-    `most` extra parts in all."""
-    length = max(typical, float(pieces.length.sum()) / most)
+    `max_extra_parts` extra parts in all."""
+    length = max(typical, float(pieces.length.sum()) / max_extra_parts)
     counts = np.ones(len(pieces), np.intp)
     long = (pieces.length > length).nonzero()[0]
     counts[long] = np.ceil(pieces.length[long] / length) if length > 0.0 else 1
     rows = np.repeat(np.arange(len(pieces)), counts)
     part = np.arange(len(rows)) - (counts.cumsum() - counts)[rows]
     start, end = pieces.start.take(rows), pieces.end.take(rows)
-    inner = (counts[rows] > 1).nonzero()[0]
-    if len(inner):
-        parted, count = pieces.take(rows[inner]), counts[rows[inner]]
-        start[inner], end[inner] = at(parted, part[inner] / count), at(parted, (part[inner] + 1) / count)
-    bow = pieces.radius[rows] * (1.0 - np.cos(pieces.angle[rows] / counts[rows] / 2.0))
-    return CoarseChords.between(start, end, bow), rows
+    split_rows = (counts[rows] > 1).nonzero()[0]
+    if len(split_rows):
+        long_pieces, nth, count = pieces.take(rows[split_rows]), part[split_rows], counts[rows[split_rows]]
+        start[split_rows], end[split_rows] = at(long_pieces, nth / count), at(long_pieces, (nth + 1) / count)
+    sagitta = pieces.radius[rows] * (1.0 - np.cos(pieces.angle[rows] / counts[rows] / 2.0))
+    return CoarseChords.between(start, end, sagitta), rows
 
 
-def _searched(chords: CoarseChords, other_chords: CoarseChords, tie: float) -> Iterator[tuple[Rows, Rows]]:
+def _nearest_chord_pairs(chords: CoarseChords, other_chords: CoarseChords, tie: float) -> Iterator[tuple[Rows, Rows]]:
     """Yield the pairs of chords whose second piece may be nearest to some point of the first one's, in batches."""
     first, second = chord_levels(chords), chord_levels(other_chords)
     within = _within(first, second)
@@ -304,7 +304,7 @@ def _within(first: ChordLevels, second: ChordLevels) -> list[Floats]:
             low -= 1
             guess = _closest_member(first[high].middle, second[low].middle, guess)
     chords, other_chords = first[0], second[0]
-    apart = np.maximum(*(np.abs(other_chords.off(guess, end)) for end in chords.ends))
+    apart = np.maximum(*(np.abs(other_chords.vectors_to(guess, end)) for end in chords.ends))
     within = [apart + chords.slack + other_chords.slack[guess]]
     while len(within) < len(first):
         within.append(np.maximum.reduceat(within[-1], np.arange(0, len(within[-1]), MEMBERS_PER_RUN)))
@@ -337,13 +337,13 @@ def _contenders(
     keep = (~(np.abs(np.maximum(gaps, 0.0, out=gaps).view(np.complex128)) > limit)).nonzero()[0]
     i, j, limit = i[keep], j[keep], limit[keep]
     middle, half = chords.middle.take(i), chords.half.take(i)
-    off = other.off(j, middle)
+    vectors = other.vectors_to(j, middle)
     # a NaN counts as nearest, and then no other chord is known to be farther
-    apart = np.fmax(np.abs(off), np.finfo(float).tiny)
-    slope = (off.conj() * half).real / apart
-    # an offset as short as the rounding of coordinates has no direction
-    blur = ROUNDING_SHARE * np.abs(middle) * np.abs(half) / apart
-    least = apart - blur - chords.slack.take(i) - other.slack.take(j)
+    apart = np.fmax(np.abs(vectors), np.finfo(float).tiny)
+    slope = (vectors.conj() * half).real / apart
+    # a vector as short as the rounding of coordinates has no direction
+    rounding = ROUNDING_SHARE * np.abs(middle) * np.abs(half) / apart
+    least = apart - rounding - chords.slack.take(i) - other.slack.take(j)
     keep = (~(least - np.abs(slope) > limit)).nonzero()[0]
     i, j, apart, least, slope = i[keep], j[keep], apart[keep], least[keep], slope[keep]
     if not len(i):
@@ -354,7 +354,7 @@ def _contenders(
     best = best[changes(i[best])]
     nearest, room = j[best], tie + chords.slack.take(i[best]) + other.slack.take(j[best])
     middle, half = chords.middle.take(i[best]), chords.half.take(i[best])
-    at_start, at_end = (np.abs(other.off(nearest, end)) + room for end in (middle - half, middle + half))
+    at_start, at_end = (np.abs(other.vectors_to(nearest, end)) + room for end in (middle - half, middle + half))
     farther = (least - slope > at_start.repeat(counts)) & (least + slope > at_end.repeat(counts))
     return i[~farther], j[~farther]
 
@@ -363,5 +363,5 @@ def _members(runs: Rows, partners: Rows, count: int) -> tuple[Rows, Rows]:
     """Return the members of these runs and the partner of each; there are `count` members in all."""
     members = (runs[:, None] * MEMBERS_PER_RUN + np.arange(MEMBERS_PER_RUN)).ravel()
     partners = partners.repeat(MEMBERS_PER_RUN)
-    real = members < count
-    return members[real], partners[real]
+    existing = members < count
+    return members[existing], partners[existing]

@@ -54,13 +54,13 @@ Locus = OrientedLine | Circle
 class Meeting:
     """The points that two loci share: none, one or two; `grazing` if two have merged into one.
 
-    `coincident`: both are the same.  Without points `apart` tells, in millimeters, the distance between parallel lines,
-    of a line from a circle's center, or between two centers."""
+    `coincident`: both are the same.  Without points, `distance` (mm) is that between two parallel lines, from a line to
+    a circle's center, or between two centers."""
 
     points: tuple[Point, ...] = ()
     grazing: bool = False
     coincident: bool = False
-    apart: float = 0.0
+    distance: float = 0.0
 
 
 def direction(heading: float) -> Point:
@@ -93,8 +93,8 @@ def _lines(first: OrientedLine, second: OrientedLine) -> Meeting:
     (ax, ay), (bx, by) = first.normal, second.normal
     across = ax * by - ay * bx
     if abs(across) < ANGLE_ROUNDING:
-        apart = abs(first.offset - (second.offset if ax * bx + ay * by > 0.0 else -second.offset))
-        return Meeting(coincident=apart <= ARC_RADII, apart=apart)
+        distance = abs(first.offset - (second.offset if ax * bx + ay * by > 0.0 else -second.offset))
+        return Meeting(coincident=distance <= ARC_RADII, distance=distance)
     x = (first.offset * by - second.offset * ay) / across
     return Meeting(((x, (ax * second.offset - bx * first.offset) / across),))
 
@@ -105,7 +105,7 @@ def _line_circle(line: OrientedLine, circle: Circle) -> Meeting:
     foot = (cx - height * nx, cy - height * ny)
     gap = abs(height) - circle.radius
     if gap > ARC_RADII:
-        return Meeting(apart=abs(height))
+        return Meeting(distance=abs(height))
     if gap >= -GRAZE:
         return Meeting((foot,), grazing=True)
     half = sqrt((circle.radius - height) * (circle.radius + height))
@@ -116,12 +116,12 @@ def _circles(first: Circle, second: Circle) -> Meeting:
     (ax, ay), (bx, by), r, s = first.center, second.center, first.radius, second.radius
     between = hypot(bx - ax, by - ay)
     if between <= ARC_RADII:
-        return Meeting(coincident=abs(r - s) <= ARC_RADII, apart=between)
+        return Meeting(coincident=abs(r - s) <= ARC_RADII, distance=between)
     ux, uy = (bx - ax) / between, (by - ay) / between
     along = (between * between + r * r - s * s) / (2.0 * between)
     gap = max(between - r - s, abs(r - s) - between)
     if gap > ARC_RADII:
-        return Meeting(apart=between)
+        return Meeting(distance=between)
     if gap >= -GRAZE:
         reach = r if along > 0.0 else -r
         return Meeting(((ax + reach * ux, ay + reach * uy),), grazing=True)

@@ -57,8 +57,8 @@ class Path:
         """
         points, turns = np.ascontiguousarray(points, np.float64).reshape(-1, 2), np.ascontiguousarray(turns, np.int8)
         numbers = np.arange(1.0, len(turns) + 1.0) if numbers is None else np.ascontiguousarray(numbers, np.float64)
-        given = np.asarray(centers, np.float64).reshape(-1, 2)
-        return Path(points, np.where(turns[:, None] == 0, points[:-1], given), turns, numbers)
+        own_centers = np.asarray(centers, np.float64).reshape(-1, 2)
+        return Path(points, np.where(turns[:, None] == 0, points[:-1], own_centers), turns, numbers)
 
     @staticmethod
     def from_pieces(pieces: Sequence[Piece], numbers: Sequence[float] | None = None) -> Path:
@@ -75,12 +75,12 @@ class Path:
             else:
                 centers += piece.start
                 turns.append(0)
-        given = range(1, len(pieces) + 1) if numbers is None else numbers
+        piece_numbers = range(1, len(pieces) + 1) if numbers is None else numbers
         return Path(
             np.array(points, np.float64).reshape(-1, 2),
             np.array(centers, np.float64).reshape(-1, 2),
             np.array(turns, np.int8),
-            np.array(given, np.float64),
+            np.array(piece_numbers, np.float64),
         )
 
     def __len__(self) -> int:
@@ -145,8 +145,8 @@ class Path:
 
     def reversed(self) -> Path:
         """Return the same pieces traveled the other way; numbers stay with their pieces."""
-        order = slice(None, None, -1)
-        return Path.of(self.points[order], self.centers[order], -self.turns[order], self.numbers[order])
+        backward = slice(None, None, -1)
+        return Path.of(self.points[backward], self.centers[backward], -self.turns[backward], self.numbers[backward])
 
     def without(self, rows: Rows) -> Path:
         """Return the path without `rows`, pieces of no length; each piece then starts where the one before it ends.
@@ -202,8 +202,8 @@ def boxes(pieces: Pieces) -> Floats:
     arm = arcs.start - arcs.center
     ahead = np.mod((_QUARTERS - np.angle(arm)) * arcs.turn, tau)
     center, radius = coordinates(arcs.center).T, np.abs(arm)
-    reached = np.concatenate((center - radius, center + radius))
-    box[:, rows] = np.where(ahead <= swept(arcs), reached, box[:, rows])
+    extremes = np.concatenate((center - radius, center + radius))
+    box[:, rows] = np.where(ahead <= swept(arcs), extremes, box[:, rows])
     return box
 
 
@@ -244,7 +244,7 @@ def joined(parts: Sequence[Path]) -> Path:
 
 
 EMPTY = Path(np.empty((0, 2)), np.empty((0, 2)), np.empty(0, np.int8), np.empty(0))
-"""The path without pieces."""
+"""The path that has no pieces."""
 
 
 class Pieces(NamedTuple):

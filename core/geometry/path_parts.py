@@ -14,7 +14,7 @@ from core.geometry.piece import Line, Piece, point_of
 
 
 class PartEnds(NamedTuple):
-    """k stretches (k,): the first segment of each and the start point on it, its last segment and the end point on it.
+    """Where k parts of a contour begin and end (k,): first segment and point on it, last segment and point on it.
 
     Points are complex numbers.
     """
@@ -28,7 +28,7 @@ class PartEnds(NamedTuple):
 class PathParts(NamedTuple):
     """Parts of a path, strung together as one path: `in_part` (n,) marks their pieces; the other pieces link the parts.
 
-    Making a hundred little paths would take longer than all the work on them.
+    One path, since a hundred little ones would take longer to make than to use.
     """
 
     path: Path
@@ -87,8 +87,8 @@ def single_pieces(path: Path, rows: NDArray[np.intp]) -> PathParts:
     """Return the pieces of a path in `rows`, each as a part of its own."""
     if not len(rows):
         return NO_PARTS
-    given, points = as_complex(path.points), np.empty(2 * len(rows), np.complex128)
-    points[::2], points[1::2] = given[rows], given[rows + 1]
+    path_points, points = as_complex(path.points), np.empty(2 * len(rows), np.complex128)
+    points[::2], points[1::2] = path_points[rows], path_points[rows + 1]
     centers, turns = points[:-1].copy(), np.zeros(len(points) - 1, np.int8)
     in_part = np.zeros(len(points) - 1, np.bool_)
     centers[::2], turns[::2], in_part[::2] = as_complex(path.centers)[rows], path.turns[rows], True

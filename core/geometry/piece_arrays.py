@@ -22,7 +22,7 @@ from core.tolerance import ON_PATH
 FEW_PAIRS: Final = 500
 """Up to this many pairs are calculated at once: that costs less than separating lines from arcs."""
 
-BLOCK_PAIRS: Final = 2_000
+PAIRS_PER_BATCH: Final = 2_000
 """Pairs calculated at a time."""
 
 
@@ -90,7 +90,7 @@ class PieceArrays:
 
 _NO_POINTS: Final = np.zeros(0, np.complex128)
 _NO_TURNS: Final = np.zeros(0, np.float64)
-Given = PieceArrays | Floats | Points
+FormulaArgument = PieceArrays | Floats | Points
 Formula = Callable[..., NDArray[Any]]
 
 
@@ -123,12 +123,12 @@ def _of_points(start: Points, end: Points, center: Points, turn: Floats) -> Piec
     angle, radius, slack = np.zeros((3, len(turn)))
     length = np.abs(vector)
     if len(arc):
-        first, last, way = start.take(arc), end.take(arc), turn.take(arc)
-        middle, slack[arc] = even_centers(first, last, center.take(arc), way)
-        arm[arc] = from_middle = first - middle
-        radius[arc] = bend = np.abs(from_middle)
-        angle[arc] = turned = swept(Pieces(first, last, middle, way.astype(np.int8)))
-        length[arc] = bend * turned
+        starts, ends, turns = start.take(arc), end.take(arc), turn.take(arc)
+        centers, slack[arc] = even_centers(starts, ends, center.take(arc), turns)
+        arm[arc] = arms = starts - centers
+        radius[arc] = radii = np.abs(arms)
+        angle[arc] = angles = swept(Pieces(starts, ends, centers, turns.astype(np.int8)))
+        length[arc] = radii * angles
     return PieceArrays(np.arange(len(turn)), start, vector, arm, turn, angle, radius, length, slack)
 
 
@@ -149,31 +149,34 @@ def even_centers(start: Points, end: Points, center: Points, turn: Floats | Turn
     return centers, slack
 
 
-def _evened(start: Points, end: Points, center: Points, turn: Floats | Turns, off: Floats) -> tuple[Points, Floats]:
+def _evened(
+    start: Points, end: Points, center: Points, turn: Floats | Turns, difference: Floats
+) -> tuple[Points, Floats]:
+    """Return the moved centers and the slacks of arcs whose radii have this `difference`."""
     chord, size = end - start, (np.abs(start - center) + np.abs(end - center)) / 2.0
     half = np.abs(chord) / 2.0
-    between = (start + end) / 2.0 + 1j * turn * np.sqrt(np.maximum(size**2 - half**2, 0.0)) * chord / (2.0 * half)
+    mean_center = (start + end) / 2.0 + 1j * turn * np.sqrt(np.maximum(size**2 - half**2, 0.0)) * chord / (2.0 * half)
     turned = (end - center) * np.conj(start - center)
-    beyond = np.where(turned.imag * turn >= 0.0, between, center)
+    fallback = np.where(turned.imag * turn >= 0.0, mean_center, center)
     moved = on_bisector(start, end, center)
     on_one_ray = (np.abs(turned.imag) <= 2.0 * ANGLE_ROUNDING * turned.real) & (turned.real > 0.0)
-    return np.where(np.abs(moved - center) > off, beyond, moved), np.where(on_one_ray, np.inf, off)
+    return np.where(np.abs(moved - center) > difference, fallback, moved), np.where(on_one_ray, np.inf, difference)
 
 
-def by_kind(chosen: Flags, line: Formula, arc: Formula, *given: Given) -> NDArray[Any]:
-    """Return what `line` yields where `chosen` is False and `arc` where it is True; the last axis counts the pieces.
+def by_kind(arcs: Flags, line: Formula, arc: Formula, *arguments: FormulaArgument) -> NDArray[Any]:
+    """Return what `line` yields where `arcs` is False and `arc` where it is True; the last axis counts the pieces.
 
     If both kinds occur, both formulas run on all pieces: either yields some value for any piece.
     """
-    if not chosen.any():
-        return line(*given)
-    return arc(*given) if chosen.all() else np.where(chosen, arc(*given), line(*given))
+    if not arcs.any():
+        return line(*arguments)
+    return arc(*arguments) if arcs.all() else np.where(arcs, arc(*arguments), line(*arguments))
 
 
-def blocks(first: Flags, second: Flags) -> Iterator[Rows]:
-    """Yield pair indices grouped by which of the two are arcs, at most BLOCK_PAIRS at a time; few pairs all at once.
+def batches_by_kind(first: Flags, second: Flags) -> Iterator[Rows]:
+    """Yield pair indices grouped by which of the two are arcs, at most PAIRS_PER_BATCH at once; few pairs all together.
 
-    In a block of one kind no formula has to separate lines from arcs, and small blocks bound the memory in use.
+    In a batch of one kind no formula has to separate lines from arcs, and small batches bound the memory in use.
     """
     if 0 < len(first) <= FEW_PAIRS:
         yield np.arange(len(first))
@@ -181,8 +184,8 @@ def blocks(first: Flags, second: Flags) -> Iterator[Rows]:
     kinds = 2 * first.astype(np.int8) + second
     for kind in range(4):
         rows = (kinds == kind).nonzero()[0]
-        for start in range(0, len(rows), BLOCK_PAIRS):
-            yield rows[start : start + BLOCK_PAIRS]
+        for start in range(0, len(rows), PAIRS_PER_BATCH):
+            yield rows[start : start + PAIRS_PER_BATCH]
 
 
 def at(pieces: PieceArrays, t: Floats) -> Points:
@@ -213,8 +216,8 @@ def traveled(arc: PieceArrays, directions: Points) -> Floats:
     return angle
 
 
-def place(pieces: PieceArrays, stations: Floats, s: Floats) -> tuple[Rows, Floats]:
-    """Return piece and fraction at the lengths `s` along the whole path; at a joint the piece that begins there."""
+def piece_at(pieces: PieceArrays, stations: Floats, s: Floats) -> tuple[Rows, Floats]:
+    """Return pieces, and fractions of them, at lengths `s` along the path; at a joint the piece that begins there."""
     index = stations[1:-1].searchsorted(s, side="right")
     return index, fraction(s - stations.take(index), pieces.length.take(index))
 

@@ -13,7 +13,7 @@ from math import atan2, dist, radians
 from typing import Final, NamedTuple
 
 from core.geometry.carrier import carriers_meet
-from core.geometry.construct import center_by_sweep, even_arc
+from core.geometry.construct import center_by_sweep, exact_arc
 from core.geometry.piece import Arc, Line, Piece, Point
 from core.importing.clean_up import is_circle
 from core.tolerance import JOINED, ON_PATH
@@ -80,7 +80,7 @@ def _between(piece: Piece, start: Point, end: Point) -> Piece:
         return Line(start, end)
     if is_circle(piece) or (start, end) == (piece.start, piece.end):
         return piece
-    arc = even_arc(start, end, piece.center, piece.turn)
+    arc = exact_arc(start, end, piece.center, piece.turn)
     if arc.end == end and arc.start != arc.end:
         return arc
     center = center_by_sweep(start, end, abs(piece.sweep), piece.turn)

@@ -19,7 +19,7 @@ from core.controls.judging.contours_and_leads import split_where_it_closes
 from core.controls.moves import Moves, Plane
 from core.controls.registry import UnknownControl, resolve, run
 from core.finding import Finding, Severity
-from core.geometry.construct import even_arc
+from core.geometry.construct import exact_arc
 from core.geometry.path import Path, runs_of
 from core.geometry.piece import Arc, Line, Piece, Side, Turn
 from core.importing.nc_contour import SAME_HEIGHT, CenterPathTool, Cut, NcContour, NcError, NcProgram
@@ -113,7 +113,7 @@ def _cuts(moves: Moves) -> Iterator[Cut]:
             continue
         piece: Piece = Line(at, end)
         if move.turn:
-            arc = even_arc(at, end, (move.center[0], move.center[1]), Turn(move.turn))
+            arc = exact_arc(at, end, (move.center[0], move.center[1]), Turn(move.turn))
             piece = arc if arc.end in (end, at) else replace(arc, end=end)
         yield Cut(piece, move.feed, move.point[2], move.line)
         at = piece.end

@@ -15,7 +15,7 @@ import numpy as np
 from core.geometry.distance import foot
 from core.geometry.path import Flags, Path, Rows
 from core.geometry.piece import Point, point_of
-from core.geometry.piece_arrays import at, blocks, direction, piece_arrays
+from core.geometry.piece_arrays import at, batches_by_kind, direction, piece_arrays
 from core.tolerance import ON_PATH, STOCK
 from core.verify.pairs import Pairs, along, keeping, measurable, pairs_of, rounding_of
 from core.verify.uncut import MAX_POINT_LENGTH, gaps_of
@@ -91,8 +91,8 @@ def _directions(pairs: Pairs, radius: float) -> Rows:
     """Return (n,) +1 for pieces that run with some wall they touch, -1 if they run against all of them, else 0."""
     touching = (pairs.least <= radius + pairs.grant).nonzero()[0]
     way = np.zeros(len(touching), np.intp)
-    for block in blocks(pairs.pieces.arcs[pairs.i[touching]], pairs.others.arcs[pairs.j[touching]]):
-        way[block] = _direction(pairs.keep(touching[block]), radius)
+    for batch in batches_by_kind(pairs.pieces.arcs[pairs.i[touching]], pairs.others.arcs[pairs.j[touching]]):
+        way[batch] = _direction(pairs.keep(touching[batch]), radius)
     ways = np.zeros(len(pairs.pieces), np.intp)
     ways[pairs.i[touching[way < 0]]] = -1
     ways[pairs.i[touching[way > 0]]] = 1

@@ -16,7 +16,7 @@ from typing import Final, NamedTuple
 
 import numpy as np
 
-from core.geometry.distance import between, distance, farthest_fractions
+from core.geometry.distance import distance, distances_at, farthest_fractions
 from core.geometry.nearby import changes
 from core.geometry.path import Floats, Points, Rows
 from core.geometry.piece_arrays import PieceArrays, at, fraction
@@ -149,7 +149,7 @@ def _within_span(piece: PieceArrays, near: PieceArrays, t: Floats) -> tuple[Floa
     inside = (fractions > t[0]) & (fractions < t[1])
     if not inside.any():
         return np.zeros(len(piece)), t[0]
-    apart = np.where(inside, between(piece, near, fractions), 0.0)
+    apart = np.where(inside, distances_at(piece, near, fractions), 0.0)
     best, each = apart.argmax(axis=0), np.arange(len(piece))
     return apart[best, each], fractions[best, each]
 

@@ -8,11 +8,11 @@ from typing import Final
 
 import numpy as np
 
-from core.geometry.distance import between, foot, nearest_fractions
+from core.geometry.distance import distances_at, foot, nearest_fractions
 from core.geometry.nearby import changes
 from core.geometry.path import Floats, Path, Rows
 from core.geometry.piece import point_of
-from core.geometry.piece_arrays import PieceArrays, at, blocks, fraction
+from core.geometry.piece_arrays import PieceArrays, at, batches_by_kind, fraction
 from core.tolerance import GOUGE, JOINED, ON_PATH
 from core.verify.pairs import NO_INTERVALS, Intervals, Pairs, Parts, joined, measured, merged, uneven_slack, within
 from core.verify.verdict import Approach, Gouge
@@ -65,15 +65,15 @@ def approaches(pairs: Pairs, rows: Rows, limit: Floats) -> tuple[Floats, Floats,
     """Return the places, in length traveled, where these pairs' pieces may be nearest to the others, if nearer than
     `limit` (m,); also the distance and the pair of each place."""
     batches = [np.zeros((3, 0))]
-    for block in blocks(pairs.pieces.arcs[pairs.i[rows]], pairs.others.arcs[pairs.j[rows]]):
-        pair = rows[block]
+    for batch in batches_by_kind(pairs.pieces.arcs[pairs.i[rows]], pairs.others.arcs[pairs.j[rows]]):
+        pair = rows[batch]
         pieces, others = pairs.pieces.take(pairs.i[pair]), pairs.others.take(pairs.j[pair])
         fractions = nearest_fractions(pieces, others)
-        apart = measured(between(pieces, others, fractions))
+        apart = measured(distances_at(pieces, others, fractions))
         new = (fractions > 0.0) & (fractions < 1.0)
         # the first two are the ends
         new[:2] = True
-        k, row = np.nonzero(new & (apart < limit[block]))
+        k, row = np.nonzero(new & (apart < limit[batch]))
         spots = pairs.stations[pairs.i[pair[row]]] + fractions[k, row] * pieces.length[row]
         batches.append(np.array((spots, apart[k, row], pair[row])))
     spots, apart, pair = np.concatenate(batches, axis=1)

@@ -12,10 +12,10 @@ from typing import Final, NamedTuple
 
 import numpy as np
 
-from core.geometry.distance import band_fractions, between, distance, nearest_fractions
+from core.geometry.distance import band_fractions, distance, distances_at, nearest_fractions
 from core.geometry.nearby import changes, nearest_pairs
 from core.geometry.path import Flags, Floats, Path, Points, Rows
-from core.geometry.piece_arrays import PieceArrays, at, blocks
+from core.geometry.piece_arrays import PieceArrays, at, batches_by_kind
 from core.tolerance import GOUGE, LARGEST_COORDINATE, ON_PATH, STOCK, UNCUT
 
 MIN_SEPARATE_ANGLE: Final = 1e-6
@@ -109,12 +109,12 @@ def rounding_of(*paths: PieceArrays) -> float:
 
 def _measured(pieces: PieceArrays, i: Rows, others: PieceArrays, j: Rows) -> tuple[Floats, Floats, Floats]:
     least, from_piece, from_other = np.empty(len(i)), np.empty((3, len(i))), np.empty((2, len(i)))
-    for rows in blocks(pieces.arcs[i], others.arcs[j]):
+    for rows in batches_by_kind(pieces.arcs[i], others.arcs[j]):
         piece, other = pieces.take(i[rows]), others.take(j[rows])
         middle = at(piece, np.full(len(rows), 0.5))
         from_piece[:, rows] = distance(other, np.array((piece.start, middle, piece.end)))
         from_other[:, rows] = distance(piece, np.array((other.start, other.end)))
-        least[rows] = between(piece, other, nearest_fractions(piece, other)).min(axis=0)
+        least[rows] = distances_at(piece, other, nearest_fractions(piece, other)).min(axis=0)
     return least, from_piece, from_other
 
 
@@ -146,7 +146,7 @@ def concentric(pairs: Pairs) -> Flags:
     """True for pairs of concentric arcs that are side by side in only one place."""
     first, second = pairs.pieces.arcs[pairs.i], pairs.others.arcs[pairs.j]
     matching = first & second
-    for rows in blocks(first, second):
+    for rows in batches_by_kind(first, second):
         if matching[rows].any():
             matching[rows] &= _about_one_center(pairs.pieces.take(pairs.i[rows]), pairs.others.take(pairs.j[rows]))
     return matching
@@ -182,8 +182,8 @@ def nearest(pairs: Pairs, index: Rows, points: Points) -> Nearest:
     k = np.repeat(np.arange(len(index)), counts)
     j = pairs.j[np.arange(len(k)) + (begins - starts)[k]]
     apart = np.empty(len(k))
-    for block in blocks(*[pairs.others.arcs[j]] * 2):
-        apart[block] = distance(pairs.others.take(j[block]), points[k[block]])
+    for batch in batches_by_kind(*[pairs.others.arcs[j]] * 2):
+        apart[batch] = distance(pairs.others.take(j[batch]), points[k[batch]])
     keep = (apart <= np.minimum.reduceat(apart, starts)[k] + ON_PATH).nonzero()[0] if len(k) else k
     return Nearest(k[keep], j[keep], apart[keep])
 
@@ -245,8 +245,8 @@ def within(pairs: Pairs, rows: Rows, limit: Floats) -> Parts:
     The pieces are split wherever the distance can pass the limit, and the middle of each part decides.
     """
     batches = [
-        _within(pairs, rows[block], limit[block])
-        for block in blocks(pairs.pieces.arcs[pairs.i[rows]], pairs.others.arcs[pairs.j[rows]])
+        _within(pairs, rows[batch], limit[batch])
+        for batch in batches_by_kind(pairs.pieces.arcs[pairs.i[rows]], pairs.others.arcs[pairs.j[rows]])
     ]
     return joined(batches)
 
@@ -255,7 +255,7 @@ def _within(pairs: Pairs, rows: Rows, limit: Floats) -> Parts:
     pieces, others = pairs.pieces.take(pairs.i[rows]), pairs.others.take(pairs.j[rows])
     fractions = band_fractions(pieces, others, limit)
     middles = (fractions[1:] + fractions[:-1]) / 2.0
-    apart = measured(between(pieces, others, middles))
+    apart = measured(distances_at(pieces, others, middles))
     part, pair = ((apart < limit) & (fractions[1:] > fractions[:-1])).nonzero()
     start, length = pairs.stations[pairs.i[rows[pair]]], pieces.length[pair]
     first, last, middle = fractions[part, pair], fractions[part + 1, pair], middles[part, pair]

@@ -8,7 +8,7 @@ from typing import Final
 
 import numpy as np
 
-from core.geometry.distance import between, distance, foot, nearest_fractions
+from core.geometry.distance import distance, distances_at, foot, nearest_fractions
 from core.geometry.nearby import near_pairs_within, sorted_pairs
 from core.geometry.path import Flags, Floats, Points, Rows
 from core.geometry.piece_arrays import PieceArrays, at, direction
@@ -100,7 +100,7 @@ def _away(
     away = np.ones(points.shape, np.bool_)
     for joint, mine, theirs in ((following, 1.0, 0.0), (around, 0.0, 1.0)):
         corner = at(piece, np.full(len(piece), mine))
-        parted = between(piece, other, (fractions + mine) / 2.0) > 2.0 * JOINED
+        parted = distances_at(piece, other, (fractions + mine) / 2.0) > 2.0 * JOINED
         turn = direction(piece, np.full(len(piece), mine)) * np.conj(direction(other, np.full(len(piece), theirs)))
         elsewhere = (np.abs(points - corner) > 10.0 * JOINED) & (parted | (turn.real < -1.0 + 1e-9))
         away &= ~joint | elsewhere

@@ -11,7 +11,7 @@ import numpy as np
 from core.geometry.distance import band_fractions, feet, foot
 from core.geometry.path import Flags, Floats, Path, Points, Rows
 from core.geometry.piece import Side, point_of
-from core.geometry.piece_arrays import PieceArrays, at, blocks, fraction
+from core.geometry.piece_arrays import PieceArrays, at, batches_by_kind, fraction
 from core.tolerance import CLOSED, ON_PATH, STOCK
 from core.verify.farthest import farthest
 from core.verify.pairs import Intervals, Pairs, concentric, covering, nearest, pairs_of, rounding_of, within
@@ -150,8 +150,8 @@ def _reached(pairs: Pairs, whole: Flags, radius: float) -> Intervals:
     stations, limit = pairs.stations, radius + pairs.grant
     rows = (pairs.least <= limit).nonzero()[0]
     begin, end = np.empty((2, len(rows)))
-    for block in blocks(pairs.pieces.arcs[pairs.i[rows]], pairs.others.arcs[pairs.j[rows]]):
-        begin[block], end[block] = _between_feet(pairs, rows[block], limit[rows[block]])
+    for batch in batches_by_kind(pairs.pieces.arcs[pairs.i[rows]], pairs.others.arcs[pairs.j[rows]]):
+        begin[batch], end[batch] = _between_feet(pairs, rows[batch], limit[rows[batch]])
     piece = pairs.i[rows]
     bent = pairs.pieces.arcs[piece] | pairs.others.arcs[pairs.j[rows]]
     unsure = bent & ((end - begin) * pairs.pieces.length[piece] > MAX_POINT_LENGTH)
@@ -250,7 +250,7 @@ def _areas(pairs: Pairs, gaps: Intervals, corner: Points, radius: float) -> Floa
     parts = gaps.cut(pairs.stations[1:-1])
     owner, piece = gaps.index(parts.middle), pairs.stations[1:-1].searchsorted(parts.middle, side="right")
     areas, sectors, arcs = np.zeros(len(gaps)), np.empty(len(piece)), pairs.pieces.arcs[piece]
-    for rows in blocks(arcs, arcs):
+    for rows in batches_by_kind(arcs, arcs):
         part, on = parts.keep(rows), piece[rows]
         sectors[rows] = _sectors(pairs.pieces.take(on), part, pairs.stations[on], corner[owner[rows]], radius)
     np.add.at(areas, owner, sectors)

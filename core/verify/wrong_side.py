@@ -12,11 +12,11 @@ from typing import Final
 
 import numpy as np
 
-from core.geometry.distance import foot, on_line
+from core.geometry.distance import foot, fractions_on_line
 from core.geometry.nearby import changes
 from core.geometry.path import Flags, Floats, Points, Rows
 from core.geometry.piece import Side
-from core.geometry.piece_arrays import BLOCK_PAIRS, PieceArrays, at, direction, place
+from core.geometry.piece_arrays import PAIRS_PER_BATCH, PieceArrays, at, direction, piece_at
 from core.tolerance import GOUGE, JOINED, ON_PATH
 from core.verify.farthest import DISTANCE_TOLERANCE, farthest
 from core.verify.gouge import Gouging, approaches
@@ -83,7 +83,7 @@ def wrong_side(pairs: Pairs, hits: Gouging, surface: Sided, radius: float) -> tu
     tested = (~(_near(pairs, radius) if surface.endless else _on_one_wall(pairs, hits, radius))).nonzero()[0]
     index, t = np.concatenate((index, tested, tested)), np.concatenate((t, np.zeros(len(tested)), np.ones(len(tested))))
     spots = np.concatenate((_gouge_positions(hits, surface), parts.middle))
-    owners, shares = place(pairs.pieces, pairs.stations, spots)
+    owners, shares = piece_at(pairs.pieces, pairs.stations, spots)
     count, index, t = len(index), np.concatenate((index, owners)), np.concatenate((t, shares))
     on_part = _on_part_side(pairs, index, t, surface)
     if surface.crossed:
@@ -98,10 +98,10 @@ def wrong_side(pairs: Pairs, hits: Gouging, surface: Sided, radius: float) -> tu
 def _on_part_side(pairs: Pairs, index: Rows, t: Floats, surface: Sided) -> Flags:
     """True for places, at fractions `t` of pieces `index`, that are on the part's side."""
     on_part = np.zeros(len(index), np.bool_)
-    for first in range(0, len(index), BLOCK_PAIRS):
-        block = slice(first, first + BLOCK_PAIRS)
-        points = at(pairs.pieces.take(index[block]), t[block])
-        on_part[block] = on_part_side(pairs.others, points, nearest(pairs, index[block], points), surface)
+    for first in range(0, len(index), PAIRS_PER_BATCH):
+        batch = slice(first, first + PAIRS_PER_BATCH)
+        points = at(pairs.pieces.take(index[batch]), t[batch])
+        on_part[batch] = on_part_side(pairs.others, points, nearest(pairs, index[batch], points), surface)
     return on_part
 
 
@@ -197,8 +197,8 @@ def _ends_passed(pairs: Pairs, intervals: Intervals, surface: Sided) -> Floats:
     walls, moves = pairs.others, pairs.pieces
     if surface.endless and abs(walls.end[-1] - walls.start[0]) <= ON_PATH:
         return np.zeros(0)
-    begin, _ = place(moves, pairs.stations, intervals.first)
-    end, _ = place(moves, pairs.stations, intervals.last)
+    begin, _ = piece_at(moves, pairs.stations, intervals.first)
+    end, _ = piece_at(moves, pairs.stations, intervals.last)
     steps = np.zeros(len(moves) + 1, np.intp)
     np.add.at(steps, begin, 1)
     np.add.at(steps, end + 1, -1)
@@ -207,7 +207,11 @@ def _ends_passed(pairs: Pairs, intervals: Intervals, surface: Sided) -> Floats:
     for wall, t in ((0, 0.0), (len(walls) - 1, 1.0)):
         edge, share = walls.take(np.full(len(rows), wall)), np.full(len(rows), t)
         corner = at(edge, share)
-        met = foot(pieces, corner)[None] if surface.endless else on_line(pieces, corner, 1j * direction(edge, share))
+        met = (
+            foot(pieces, corner)[None]
+            if surface.endless
+            else fractions_on_line(pieces, corner, 1j * direction(edge, share))
+        )
         k, row = np.nonzero((met > 0.0) & (met < 1.0))
         crossings.append(pairs.stations[rows[row]] + met[k, row] * pieces.length[row])
     return np.concatenate(crossings)
@@ -236,7 +240,7 @@ def _changes_of_side(pairs: Pairs, parts: Intervals, surface: Sided) -> Floats:
 
 def _wrong(pairs: Pairs, s: Floats, surface: Sided) -> Flags:
     """True for places `s` along the center path that are on the part's side."""
-    return _on_part_side(pairs, *place(pairs.pieces, pairs.stations, s), surface)
+    return _on_part_side(pairs, *piece_at(pairs.pieces, pairs.stations, s), surface)
 
 
 def on_part_side(walls: PieceArrays, points: Points, near: Nearest, surface: Sided) -> Flags:

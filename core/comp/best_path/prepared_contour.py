@@ -11,7 +11,7 @@ import numpy as np
 from core.comp import findings as comp_findings
 from core.finding import Finding
 from core.geometry.distance import distance
-from core.geometry.intersect import Meeting, meet
+from core.geometry.intersect import MeetingKind, meet
 from core.geometry.nearby import BoxTree, near_pairs, near_pairs_within, point_boxes
 from core.geometry.path import EMPTY, Flags, Floats, Path, Points, Rows, as_complex, coordinates, next_in_ring, tangents
 from core.geometry.piece_arrays import PieceArrays, even_centers, piece_arrays
@@ -170,7 +170,7 @@ def crosses_itself(path: Path, *, closed: bool) -> tuple[float, float] | None:
         i, j = i[order], j[order]
         met = meet(path, i, path, j)
         hit = met.pair[~_at_joint(path, i[met.pair], j[met.pair], met.points)]
-        hit = np.concatenate((hit, (met.kinds == Meeting.OVERLAP).nonzero()[0]))
+        hit = np.concatenate((hit, (met.kinds == MeetingKind.OVERLAP).nonzero()[0]))
         if len(hit):
             return float(path.numbers[i[hit[0]]]), float(path.numbers[j[hit[0]]])
     return None

@@ -18,7 +18,7 @@ import numpy as np
 
 from core.comp.best_path.prepared_contour import NOT_WHOLE_TURN
 from core.comp.best_path.raw_offset import RawOffset
-from core.geometry.intersect import Meeting, Meetings, meet_pieces
+from core.geometry.intersect import MeetingKind, Meetings, meet_pieces
 from core.geometry.nearby import near_pairs, near_pairs_within
 from core.geometry.path import Flags, Floats, Points, Rows, boxes, next_in_ring
 from core.tolerance import JOINED, ON_PATH
@@ -58,7 +58,7 @@ def _self_intersections(raw: RawOffset, sign: int) -> Intersections | None:
         met = meet_pieces(raw.pieces, i, raw.pieces, j)
         count += len(met.pair)
         parts.append(_intersections(raw, i, j, met, sign))
-        overlap = (met.kinds == Meeting.OVERLAP).nonzero()[0]
+        overlap = (met.kinds == MeetingKind.OVERLAP).nonzero()[0]
         if len(overlap):
             parts.append(_overlaps(raw, i[overlap], j[overlap]))
     return _concatenated(parts)
@@ -98,8 +98,8 @@ def _concatenated(parts: list[Intersections]) -> Intersections:
 def _intersections(raw: RawOffset, i: Rows, j: Rows, met: Meetings, sign: int) -> Intersections:
     a, b, points = i[met.pair], j[met.pair], met.points
     bend = raw.directions(a, points).conj() * raw.directions(b, points)
-    ends = np.minimum(np.minimum(met.along_a, met.rest_a), np.minimum(met.along_b, met.rest_b))
-    proper = (met.kinds[met.pair] == Meeting.CROSS) & (ends > JOINED)
+    ends = np.minimum(np.minimum(met.along_a, met.to_end_a), np.minimum(met.along_b, met.to_end_b))
+    proper = (met.kinds[met.pair] == MeetingKind.CROSS) & (ends > JOINED)
     return Intersections(a, b, met.along_a, met.along_b, points, np.where(proper, sign * bend.imag, 0.0))
 
 

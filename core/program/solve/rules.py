@@ -220,7 +220,7 @@ def _along(axis: int, given: Given) -> Outcome | None:
 def _long(axis: int, given: Given) -> Outcome:
     """Solve a line of the typed XY LENGTH to one end coordinate."""
     value, length = given.known[_END[axis]], given.known["length"]
-    ends = construct.on_circle(given.start, length, axis, value)
+    ends = construct.points_on_circle(given.start, length, axis, value)
     if isinstance(ends, OutOfReach):
         text = f"XY LENGTH {{0~2}} does not reach {'XY'[axis]} END {{1}}: it takes at least {{2+}}."
         return contradiction(text, "length", length, value, ends.least)
@@ -304,7 +304,7 @@ def _center_and_coordinate(axis: int, given: Given) -> Outcome:
     radius = dist(given.start, center)
     if radius <= JOINED:
         return _no_radius()
-    ends = construct.on_circle(center, radius, axis, value)
+    ends = construct.points_on_circle(center, radius, axis, value)
     if isinstance(ends, OutOfReach):
         text = f"The arc's radius is {{0}}: it does not reach {'XY'[axis]} END {{1}}."
         return contradiction(text, _END[axis], radius, value)
@@ -315,8 +315,8 @@ def _about_center(given: Given, *ends: Point) -> Outcome:
     """Return the arcs about a typed center to each end; SWEEP ANGLE decides what an end close to the start means."""
     start, center, sweep = given.start, _point(given.known, _CENTER), given.known.get("sweep")
     close = [end for end in ends if _comes_back(start, end)]
-    arcs = [construct.even_arc(start, end, center, given.turn) for end in close]
-    others = [construct.even_arc(start, end, center, given.turn) for end in ends if end not in close]
+    arcs = [construct.exact_arc(start, end, center, given.turn) for end in close]
+    others = [construct.exact_arc(start, end, center, given.turn) for end in ends if end not in close]
     full = Arc(start, start, center, given.turn)
     if not close:
         return _ordered(*others)
@@ -407,7 +407,7 @@ def _end_and_center_coordinate(axis: int, given: Given) -> Outcome | None:
 def _radius_sweep_center(axis: int, given: Given) -> Outcome:
     """Solve RADIUS, SWEEP ANGLE and one center coordinate: the center with the greater other coordinate first."""
     radius, value = given.known["radius"], given.known[_CENTER[axis]]
-    centers = construct.on_circle(given.start, radius, axis, value)
+    centers = construct.points_on_circle(given.start, radius, axis, value)
     if isinstance(centers, OutOfReach):
         text = f"RADIUS {{0~2}} does not reach {'XY'[axis]} CENTER {{1}}: it takes at least {{2+}}."
         return contradiction(text, "radius", radius, value, centers.least)
@@ -419,7 +419,7 @@ def _radius_sweep_end(axis: int, given: Given) -> Outcome | None:
     chord = given.known["radius"] * construct.chord_factor(given.known["sweep"])
     if chord <= CLOSED:
         return None
-    ends = construct.on_circle(given.start, chord, axis, given.known[_END[axis]])
+    ends = construct.points_on_circle(given.start, chord, axis, given.known[_END[axis]])
     if isinstance(ends, OutOfReach):
         text = f"RADIUS and SWEEP ANGLE make the end {{0}} from the start: that does not reach {'XY'[axis]} END {{1}}."
         return contradiction(text, _END[axis], chord, given.known[_END[axis]])

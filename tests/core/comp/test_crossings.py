@@ -10,7 +10,7 @@ from hypothesis import strategies as st
 
 from core.comp.crossings import crossings
 from core.comp.offset import RawChain, RawPart, offset
-from core.geometry.intersect import Meeting, meet
+from core.geometry.intersect import MeetingKind, meet
 from core.geometry.path import Path
 from core.geometry.piece import Side
 from tests.core.comp.contours import lines, mixed, polygons
@@ -37,7 +37,7 @@ def test_all_pairs_within_reach_are_found(contour, side, radius, lookahead, clos
     found = crossings(chain, 20, closed=closed).within(lookahead)
     pairs = np.array(_all_pairs(chain, lookahead, closed=closed), np.intp).reshape(-1, 2)
     met = meet(chain.raw, pairs[:, 0], chain.raw, pairs[:, 1])
-    crossing = met.kinds[met.pair] == Meeting.CROSS
+    crossing = met.kinds[met.pair] == MeetingKind.CROSS
     assert np.array_equal(found.a, pairs[met.pair[crossing], 0])
     assert np.array_equal(found.b, pairs[met.pair[crossing], 1])
     assert np.array_equal(found.along_a, met.along_a[crossing])

@@ -54,15 +54,15 @@ def test_a_ray_that_does_not_reach_a_coordinate_gives_the_reason():
 
 
 def test_on_circle_finds_the_points_at_a_coordinate():
-    assert construct.on_circle((1.0, 1.0), 5.0, 0, 4.0) == ((4.0, 5.0), (4.0, -3.0))
-    assert construct.on_circle((1.0, 1.0), 5.0, 1, -2.0) == ((5.0, -2.0), (-3.0, -2.0))
-    assert construct.on_circle((1.0, 1.0), 5.0, 0, 6.0) == ((6.0, 1.0),)
-    assert construct.on_circle((1.0, 1.0), 5.0, 0, 7.0) == OutOfReach(6.0)
+    assert construct.points_on_circle((1.0, 1.0), 5.0, 0, 4.0) == ((4.0, 5.0), (4.0, -3.0))
+    assert construct.points_on_circle((1.0, 1.0), 5.0, 1, -2.0) == ((5.0, -2.0), (-3.0, -2.0))
+    assert construct.points_on_circle((1.0, 1.0), 5.0, 0, 6.0) == ((6.0, 1.0),)
+    assert construct.points_on_circle((1.0, 1.0), 5.0, 0, 7.0) == OutOfReach(6.0)
 
 
 def test_on_circle_accepts_a_coordinate_rounded_outwards():
-    assert construct.on_circle((0.0, 0.0), 5.0, 1, 5.0 + ARC_RADII) == ((0.0, 5.0 + ARC_RADII),)
-    assert construct.on_circle((0.0, 0.0), 5.0, 1, 5.01) == OutOfReach(5.01)
+    assert construct.points_on_circle((0.0, 0.0), 5.0, 1, 5.0 + ARC_RADII) == ((0.0, 5.0 + ARC_RADII),)
+    assert construct.points_on_circle((0.0, 0.0), 5.0, 1, 5.01) == OutOfReach(5.01)
 
 
 @pytest.mark.parametrize(
@@ -88,7 +88,7 @@ def test_a_typed_chord_equal_to_the_diameter_has_one_center():
         radius, x = round(rng.uniform(1, 20), 3), round(rng.uniform(-50, 100), 3)
         end = round(x - 2 * radius, 3)
         assert _count(construct.centers((x, 10.0), (end, 10.0), radius, Turn.CCW)) == 1
-        assert _count(construct.on_circle((x, 10.0), radius, 0, round(x + radius, 3))) == 1
+        assert _count(construct.points_on_circle((x, 10.0), radius, 0, round(x + radius, 3))) == 1
         # one more digit makes two different arcs
         assert _count(construct.centers((x, 10.0), (end, 10.0), radius + 0.0001, Turn.CCW)) == 2
 
@@ -163,23 +163,23 @@ def test_a_center_coordinate_along_the_chord_determines_nothing():
 
 
 def test_even_arc_keeps_a_center_that_fits():
-    assert construct.even_arc((1.0, 0.0), (0.0, 1.0), (0.0, 0.0), Turn.CCW) == Arc(
+    assert construct.exact_arc((1.0, 0.0), (0.0, 1.0), (0.0, 0.0), Turn.CCW) == Arc(
         (1.0, 0.0), (0.0, 1.0), (0.0, 0.0), Turn.CCW
     )
 
 
 def test_even_arc_moves_the_center_onto_the_bisector():
-    arc = construct.even_arc((0.0, 0.0), (2.0, 0.0), (1.001, 0.5), Turn.CW)
+    arc = construct.exact_arc((0.0, 0.0), (2.0, 0.0), (1.001, 0.5), Turn.CW)
     assert near(arc.center, (1.0, 0.5))
     assert (arc.start, arc.end) == ((0.0, 0.0), (2.0, 0.0))
     off_center = (4.0 + 0.001 * 0.8, 4.0 + 0.001 * 0.6)
-    arc = construct.even_arc((3.0, -3.0), (11.0, 3.0), off_center, Turn.CCW)
+    arc = construct.exact_arc((3.0, -3.0), (11.0, 3.0), off_center, Turn.CCW)
     assert near(arc.center, (4.0, 4.0))
     assert (arc.start, arc.end) == ((3.0, -3.0), (11.0, 3.0))
 
 
 def test_even_arc_closes_a_circle_that_ends_at_its_start():
-    arc = construct.even_arc((1.0, 0.0), (1.0, 1e-9), (0.0, 0.0), Turn.CCW)
+    arc = construct.exact_arc((1.0, 0.0), (1.0, 1e-9), (0.0, 0.0), Turn.CCW)
     assert arc == Arc((1.0, 0.0), (1.0, 0.0), (0.0, 0.0), Turn.CCW)
     assert arc.sweep == tau
 
@@ -192,20 +192,20 @@ def test_even_arc_closes_a_circle_that_ends_on_the_ray_of_its_start(off, turn):
         center = (x, -10.0)
         size = dist((0.0, 0.0), center)
         end = (x - x * (size + off) / size, -10.0 + 10.0 * (size + off) / size)
-        arc = construct.even_arc((0.0, 0.0), end, center, turn)
+        arc = construct.exact_arc((0.0, 0.0), end, center, turn)
         assert arc == Arc((0.0, 0.0), (0.0, 0.0), center, turn)
 
 
 def test_even_arc_keeps_a_tiny_arc_tiny():
     """An arc of two microns is no full circle."""
-    arc = construct.even_arc((1.0, 0.0), (1.0, 0.002), (0.0, 0.0), Turn.CCW)
+    arc = construct.exact_arc((1.0, 0.0), (1.0, 0.002), (0.0, 0.0), Turn.CCW)
     assert arc.sweep == pytest.approx(0.002, abs=1e-5)
 
 
 def test_even_arc_moves_the_end_if_the_center_would_move_far():
     """On a chord of 0.1, radii of 50 that differ by 0.002 would move the center by a millimeter."""
     end = (50.002 * cos(0.002), 50.002 * sin(0.002))
-    arc = construct.even_arc((50.0, 0.0), end, (0.0, 0.0), Turn.CCW)
+    arc = construct.exact_arc((50.0, 0.0), end, (0.0, 0.0), Turn.CCW)
     assert arc.center == (0.0, 0.0)
     assert dist(arc.end, arc.center) == pytest.approx(50.0)
     assert near(arc.end, end, ARC_RADII)
@@ -216,7 +216,7 @@ def test_even_arc_moves_the_end_if_the_center_would_move_far():
 def test_even_arc_is_exact_and_moves_points_within_the_tolerance(center, radius, first, last, off, turn):
     start = (center[0] + radius * cos(first), center[1] + radius * sin(first))
     end = (center[0] + (radius + off) * cos(last), center[1] + (radius + off) * sin(last))
-    arc = construct.even_arc(start, end, center, turn)
+    arc = construct.exact_arc(start, end, center, turn)
     assert arc.start == start
     assert dist(arc.start, arc.center) == pytest.approx(dist(arc.end, arc.center), abs=2e-9)
     assert near(arc.end, end, ARC_RADII + NEAR)
@@ -229,4 +229,4 @@ def test_chord_factor_is_the_chord_of_a_unit_arc():
 
 
 def test_an_infinite_coordinate_is_out_of_reach():
-    assert construct.on_circle((0.0, 0.0), 1.0, 0, inf) == OutOfReach(inf)
+    assert construct.points_on_circle((0.0, 0.0), 1.0, 0, inf) == OutOfReach(inf)

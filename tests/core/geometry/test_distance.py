@@ -11,13 +11,13 @@ from hypothesis import given, settings
 
 from core.geometry.distance import (
     band_fractions,
-    between,
     distance,
+    distances_at,
     farthest_fractions,
     foot,
+    fractions_on_circle,
+    fractions_on_line,
     nearest_fractions,
-    on_circle,
-    on_line,
 )
 from core.geometry.path import Floats, Path
 from core.geometry.piece import Arc, Line, Piece, Turn
@@ -69,14 +69,14 @@ def test_a_point_beside_a_piece(piece: Piece, point: complex, apart: float, shar
 
 def test_meetings_with_a_line_and_a_circle() -> None:
     line = piece_array(Line((0, 0), (10, 0)))
-    assert on_line(line, np.array((3 + 5j,)), np.array((1j,)))[0] == pytest.approx([0.3])
-    assert on_circle(line, np.array((5 + 3j,)), np.array((5.0,)))[:, 0] == pytest.approx([0.1, 0.9])
-    assert np.isnan(on_circle(line, np.array((5 + 6j,)), np.array((5.0,)))).all()
-    met = on_circle(piece_array(HALF), np.array((0 + 2j,)), np.array((2.0,)))[:, 0]
+    assert fractions_on_line(line, np.array((3 + 5j,)), np.array((1j,)))[0] == pytest.approx([0.3])
+    assert fractions_on_circle(line, np.array((5 + 3j,)), np.array((5.0,)))[:, 0] == pytest.approx([0.1, 0.9])
+    assert np.isnan(fractions_on_circle(line, np.array((5 + 6j,)), np.array((5.0,)))).all()
+    met = fractions_on_circle(piece_array(HALF), np.array((0 + 2j,)), np.array((2.0,)))[:, 0]
     assert sorted(met) == pytest.approx([1 / 6, 5 / 6])
-    assert sorted(on_line(piece_array(HALF), np.array((-9 + 1j,)), np.array((1.0 + 0j,)))[:, 0]) == pytest.approx(
-        [1 / 6, 5 / 6]
-    )
+    assert sorted(
+        fractions_on_line(piece_array(HALF), np.array((-9 + 1j,)), np.array((1.0 + 0j,)))[:, 0]
+    ) == pytest.approx([1 / 6, 5 / 6])
 
 
 def test_a_meeting_near_a_touch_on_a_huge_arc_keeps_its_digits() -> None:
@@ -84,7 +84,7 @@ def test_a_meeting_near_a_touch_on_a_huge_arc_keeps_its_digits() -> None:
     size, r, beyond = 1.0e5, 0.3, 1e-9
     arc = piece_array(Arc((size, 0.0), (0.0, size), (0.0, 0.0), Turn.CCW))
     center = (size - r) * np.exp(0.5j)
-    met = on_circle(arc, np.array((center,)), np.array((r + beyond,)))[:, 0] * arc.length
+    met = fractions_on_circle(arc, np.array((center,)), np.array((r + beyond,)))[:, 0] * arc.length
     assert met - 0.5 * size == pytest.approx([-sqrt(2 * r * beyond), sqrt(2 * r * beyond)], rel=0.1)
 
 
@@ -96,9 +96,9 @@ def dense(piece: Piece) -> Floats:
 @given(paths(most=3), paths(most=3))
 def test_extremes_are_among_the_places(first: Path, second: Path) -> None:
     piece, other = pairs(first, second)
-    least = between(piece, other, nearest_fractions(piece, other)).min(axis=0)
-    inner = between(piece, other, farthest_fractions(piece, other)).max(axis=0)
-    ends = between(piece, other, np.vstack((np.zeros(len(piece)), np.ones(len(piece))))).max(axis=0)
+    least = distances_at(piece, other, nearest_fractions(piece, other)).min(axis=0)
+    inner = distances_at(piece, other, farthest_fractions(piece, other)).max(axis=0)
+    ends = distances_at(piece, other, np.vstack((np.zeros(len(piece)), np.ones(len(piece))))).max(axis=0)
     for k in range(len(piece)):
         mine, theirs = first[k // len(second)], second.part(k % len(second), k % len(second) + 1)
         apart = oracle.apart(dense(mine), theirs)
@@ -116,9 +116,9 @@ def test_between_band_places_the_distance_stays_on_one_side(first: Path, second:
     assert np.all(np.diff(places, axis=0) >= 0.0)
     low, high = places[:-1], places[1:]
     for share in (0.1, 0.5, 0.9):
-        near = between(piece, other, low + share * (high - low)) < reach
+        near = distances_at(piece, other, low + share * (high - low)) < reach
         wide = high - low > 1e-6
-        middle = between(piece, other, (low + high) / 2) < reach
+        middle = distances_at(piece, other, (low + high) / 2) < reach
         assert np.all(near[wide] == middle[wide])
 
 
@@ -126,7 +126,7 @@ def test_between_band_places_the_distance_stays_on_one_side(first: Path, second:
 @given(paths(most=4), paths(most=4))
 def test_shapely_finds_the_same_distance_on_chords(first: Path, second: Path) -> None:
     piece, other = pairs(first, second)
-    least = between(piece, other, nearest_fractions(piece, other)).min()
+    least = distances_at(piece, other, nearest_fractions(piece, other)).min()
     strings = [shapely.LineString(np.concatenate([dense(piece) for piece in path])) for path in (first, second)]
     assert shapely.distance(*strings) == pytest.approx(least, abs=1e-4)
 

@@ -10,12 +10,12 @@ import pytest
 from hypothesis import assume, given, settings
 from hypothesis import strategies as st
 
-from core.geometry.intersect import Meeting, Meetings, meet
+from core.geometry.intersect import MeetingKind, Meetings, meet
 from core.geometry.path import Path
 from core.geometry.piece import Arc, Line, Piece, Turn
 from tests.properties import exercised, must_exercise
 
-APART, TOUCH, CROSS, OVERLAP = Meeting
+APART, TOUCH, CROSS, OVERLAP = MeetingKind
 CIRCLE = Arc((1, 0), (1, 0), (0, 0), Turn.CCW)
 UPPER = Arc((1, 0), (-1, 0), (0, 0), Turn.CCW)
 LOWER = Arc((1, 0), (-1, 0), (0, 0), Turn.CW)
@@ -30,7 +30,7 @@ def _points(meetings: Meetings) -> list[tuple[float, float]]:
     return [(point.real, point.imag) for point in meetings.points.tolist()]
 
 
-def _expect(a: Piece, b: Piece, kind: Meeting, *points: tuple[float, float]) -> None:
+def _expect(a: Piece, b: Piece, kind: MeetingKind, *points: tuple[float, float]) -> None:
     meetings = _meet(a, b)
     assert meetings.kinds.tolist() == [kind]
     assert _points(meetings) == [pytest.approx(point, abs=1e-12) for point in points]
@@ -119,9 +119,9 @@ def test_two_arcs_of_one_huge_circle_share_only_their_ends():
 def test_meetings_have_the_distance_along_both_pieces_and_the_rest():
     meetings = _meet(UPPER, Line((0, 0), (0, 3)))
     assert meetings.along_a.tolist() == [pytest.approx(pi / 2)]
-    assert meetings.rest_a.tolist() == [pytest.approx(pi / 2)]
+    assert meetings.to_end_a.tolist() == [pytest.approx(pi / 2)]
     assert meetings.along_b.tolist() == [pytest.approx(1)]
-    assert meetings.rest_b.tolist() == [pytest.approx(2)]
+    assert meetings.to_end_b.tolist() == [pytest.approx(2)]
 
 
 def test_distances_along_clockwise_arcs_follow_the_travel():
@@ -131,8 +131,8 @@ def test_distances_along_clockwise_arcs_follow_the_travel():
 
 def test_lines_that_touch_end_to_end_have_their_place():
     meetings = _meet(Line((0, 0), (2, 0)), Line((5, 0), (2, 0)))
-    assert (meetings.along_a.tolist(), meetings.rest_a.tolist()) == ([2], [0])
-    assert (meetings.along_b.tolist(), meetings.rest_b.tolist()) == ([3], [0])
+    assert (meetings.along_a.tolist(), meetings.to_end_a.tolist()) == ([2], [0])
+    assert (meetings.along_b.tolist(), meetings.to_end_b.tolist()) == ([3], [0])
 
 
 def test_no_pairs_have_no_meetings():
@@ -183,7 +183,7 @@ def _distance(piece: Piece, point: complex) -> float:
 
 def _clear(meetings: Meetings) -> bool:
     """Whether all points are well inside both pieces and none is near tangent, so rounding does not decide."""
-    ends = np.concatenate((meetings.along_a, meetings.along_b, meetings.rest_a, meetings.rest_b))
+    ends = np.concatenate((meetings.along_a, meetings.along_b, meetings.to_end_a, meetings.to_end_b))
     return bool((ends > 1e-4).all()) and meetings.kinds[0] in (APART, CROSS)
 
 
@@ -197,8 +197,8 @@ def test_meeting_points_lie_on_both_pieces(a, b):
     for point in meetings.points.tolist():
         assert _distance(a, point) < 1e-8
         assert _distance(b, point) < 1e-8
-    assert np.allclose(meetings.along_a + meetings.rest_a, a.length, atol=1e-9)
-    assert np.allclose(meetings.along_b + meetings.rest_b, b.length, atol=1e-9)
+    assert np.allclose(meetings.along_a + meetings.to_end_a, a.length, atol=1e-9)
+    assert np.allclose(meetings.along_b + meetings.to_end_b, b.length, atol=1e-9)
     assert (np.diff(meetings.along_a) >= 0).all()
 
 
@@ -254,7 +254,7 @@ def test_reversed_pieces_meet_at_the_same_points(a, b):
     back = meet(Path.from_pieces([a]).reversed(), ONLY, Path.from_pieces([b]), ONLY)
     assume(_clear(meetings))
     assert len(back.points) == len(meetings.points)
-    assert np.allclose(back.along_a[::-1], meetings.rest_a, atol=1e-7)
+    assert np.allclose(back.along_a[::-1], meetings.to_end_a, atol=1e-7)
     assert np.allclose(back.points[::-1], meetings.points, atol=1e-7)
 
 

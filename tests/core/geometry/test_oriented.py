@@ -19,7 +19,7 @@ def test_parallel_lines_are_apart_by_their_distance_whichever_way_they_are_trave
     for other in (OrientedLine(0.0, 2.0), OrientedLine(pi, -2.0)):
         met = meeting(OrientedLine(0.0, 5.0), other)
         assert not met.coincident
-        assert met.apart == pytest.approx(3.0)
+        assert met.distance == pytest.approx(3.0)
 
 
 def test_circles_share_the_point_left_of_the_way_between_their_centers_first() -> None:

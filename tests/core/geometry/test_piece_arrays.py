@@ -11,7 +11,15 @@ from hypothesis import strategies as st
 
 from core.geometry.path import EMPTY, Path
 from core.geometry.piece import Arc, Line, Side, Turn
-from core.geometry.piece_arrays import BLOCK_PAIRS, FEW_PAIRS, at, blocks, direction, piece_arrays, place
+from core.geometry.piece_arrays import (
+    FEW_PAIRS,
+    PAIRS_PER_BATCH,
+    at,
+    batches_by_kind,
+    direction,
+    piece_arrays,
+    piece_at,
+)
 from core.verify.judge import judge
 from tests.core.verify import oracle
 from tests.core.verify.shapes import lines, paths
@@ -34,7 +42,7 @@ def test_pieces_have_points_and_directions() -> None:
 
 def test_a_joint_belongs_to_the_piece_that_starts_there() -> None:
     pieces = piece_arrays(QUARTER)
-    index, t = place(pieces, pieces.stations, np.array((-1.0, 0.0, 5.0, 5.0 + pi / 4, 100.0)))
+    index, t = piece_at(pieces, pieces.stations, np.array((-1.0, 0.0, 5.0, 5.0 + pi / 4, 100.0)))
     assert index.tolist() == [0, 0, 1, 1, 2]
     assert t == pytest.approx([0.0, 0.0, 0.0, 0.5, 1.0])
 
@@ -98,8 +106,8 @@ def test_uneven_radii_of_a_nearly_full_arc_hide_no_gouge() -> None:
 def test_every_pair_is_in_one_block_and_large_blocks_are_of_one_kind(count: int) -> None:
     random = np.random.default_rng(1)
     first, second = random.random((2, count)) < 0.5
-    result = list(blocks(first, second))
+    result = list(batches_by_kind(first, second))
     assert sorted(np.concatenate([np.empty(0, np.intp), *result]).tolist()) == list(range(count))
     for rows in result if count > FEW_PAIRS else ():
-        assert 0 < len(rows) <= BLOCK_PAIRS
+        assert 0 < len(rows) <= PAIRS_PER_BATCH
         assert len(np.unique(first[rows])) == len(np.unique(second[rows])) == 1

@@ -185,7 +185,7 @@ class ChainProblem:
                 return None
             if turn:
                 center = (known.get("x_center", placed.center[0]), known.get("y_center", placed.center[1]))
-                pieces.append(construct.even_arc(start, end, center, turn))
+                pieces.append(construct.exact_arc(start, end, center, turn))
             else:
                 pieces.append(Line(start, end))
             start = end

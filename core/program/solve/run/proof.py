@@ -73,7 +73,7 @@ def _arc(element: Element, start: Point, end: Point, center: Point) -> tuple[Arc
         return Arc(start, start, center, element.turn), []
     if abs(radius - out) > ARC_RADII:
         return None, [reasons.radii_differ(element, radius, out)]
-    arc = construct.even_arc(start, end, center, element.turn)
+    arc = construct.exact_arc(start, end, center, element.turn)
     if arc.length <= JOINED:
         return None, [reasons.no_length(element)]
     return arc, []

@@ -299,7 +299,7 @@ def _joint(branch: Branch) -> Ways | None:
             continue
         met = meeting(loci[0], loci[1])
         if not met.points:
-            raise DeadEnd(reasons.no_meeting(branch, index, loci[0], loci[1], met.apart))
+            raise DeadEnd(reasons.no_meeting(branch, index, loci[0], loci[1], met.distance))
         ways = [branch.chosen(root, grazing=met.grazing) for root in range(len(met.points))]
         for way, point in zip(ways, met.points, strict=True):
             way.put_joint(index, point)
