@@ -10,7 +10,7 @@ from textual import work
 from app.file_actions import FileActions
 from app.screens.dialogs import NumberEntry, NumberForm
 from app.session.formats import segment_numbers
-from core.program import transform
+from core.program import block_motion
 from core.program.edit import Edited, Refused
 from core.units import Kind, to_mm
 
@@ -40,17 +40,17 @@ class TransformActions(FileActions):
     def _length(self, value: float) -> float:
         return to_mm(value, self.session.program.unit)
 
-    def _shifted(self, x: float, y: float) -> transform.Motion:
-        return transform.moved(self._length(x), self._length(y))
+    def _shifted(self, x: float, y: float) -> block_motion.Motion:
+        return block_motion.shift(self._length(x), self._length(y))
 
-    def _rotated(self, x: float, y: float, angle: float) -> transform.Motion:
-        return transform.rotated((self._length(x), self._length(y)), angle)
+    def _rotated(self, x: float, y: float, angle: float) -> block_motion.Motion:
+        return block_motion.rotation((self._length(x), self._length(y)), angle)
 
-    def _mirrored(self, x: float, y: float, angle: float) -> transform.Motion:
-        return transform.mirrored((self._length(x), self._length(y)), angle)
+    def _mirrored(self, x: float, y: float, angle: float) -> block_motion.Motion:
+        return block_motion.reflection((self._length(x), self._length(y)), angle)
 
     async def _block(
-        self, title: str, line: str, entries: Sequence[NumberEntry], motion_of: Callable[..., transform.Motion]
+        self, title: str, line: str, entries: Sequence[NumberEntry], motion_of: Callable[..., block_motion.Motion]
     ) -> None:
         # taken later, a number would go into the transformed shape
         if not self.take_typed():
@@ -58,32 +58,32 @@ class TransformActions(FileActions):
         rest = self.session.without_empty()
         program, number = rest.program, rest.place.block
         edited = await self._edited(
-            title, line, entries, lambda *numbers: transform.transform_block(program, number, motion_of(*numbers))
+            title, line, entries, lambda *numbers: block_motion.transform_block(program, number, motion_of(*numbers))
         )
         if edited is not None and self.apply(edited, f"{title} {number}"):
             # messages about the previous edit no longer apply
             self.clear_notice()
             before, after = (each.blocks[number - 1] for each in (program, self.session.program))
             side = "" if after.cutter_comp is before.cutter_comp else f" CUTTER COMP. is {after.cutter_comp} now."
-            lost = segment_numbers(transform.no_longer_typed(before, after))
+            lost = segment_numbers(block_motion.no_longer_typed(before, after))
             points = f" Typed points replace the data of segments {lost}." if lost else ""
             self.notify(f"{title} {number} is done.{side}{points} Ctrl+Z undoes it.", timeout=4)
 
     @work(exclusive=True, group="question")
     async def action_shift_block(self) -> None:
         """Shift the block with the cursor."""
-        await self._block("SHIFT BLOCK", "How far, in X and Y.", (X_ENTRY, Y_ENTRY), self._shifted)
+        await self._block("SHIFT BLOCK", "Distance to move in X and in Y.", (X_ENTRY, Y_ENTRY), self._shifted)
 
     @work(exclusive=True, group="question")
     async def action_rotate_block(self) -> None:
         """Rotate the block with the cursor about a point."""
-        line = "Counter-clockwise about a point, in degrees."
+        line = "Counterclockwise about the center, in degrees."
         await self._block("ROTATE BLOCK", line, (*CENTER_ENTRIES, ANGLE_ENTRY), self._rotated)
 
     @work(exclusive=True, group="question")
     async def action_mirror_block(self) -> None:
         """Mirror the block with the cursor about a line."""
-        line = "In the line through X, Y at ANGLE: 90 swaps left and right."
+        line = "About the line through X, Y at ANGLE; 90 swaps left and right."
         await self._block("MIRROR BLOCK", line, (X_ENTRY, Y_ENTRY, ANGLE_ENTRY), self._mirrored)
 
     @work(exclusive=True, group="question")
@@ -97,7 +97,7 @@ class TransformActions(FileActions):
         await self._repeat("REPEAT, ROTATED", (*CENTER_ENTRIES, ANGLE_ENTRY), self._rotated)
 
     async def _repeat(
-        self, title: str, entries: Sequence[NumberEntry], motion_of: Callable[..., transform.Motion]
+        self, title: str, entries: Sequence[NumberEntry], motion_of: Callable[..., block_motion.Motion]
     ) -> None:
         # taken later, a number would go into the transformed shape
         if not self.take_typed():
@@ -108,11 +108,11 @@ class TransformActions(FileActions):
         def repeated(first: float, last: float, *numbers: float) -> Edited:
             *values, copies = numbers
             motion = motion_of(*values)
-            return transform.repeat_segments(program, place.block, int(first), int(last), motion, int(copies))
+            return block_motion.repeat_segments(program, place.block, int(first), int(last), motion, int(copies))
 
         here = str(min(max(self.session.place.segment, 1), max(len(rest.block.segments), 1)))
         which = (NumberEntry("FIRST SEGMENT", Kind.COUNT, here), NumberEntry("LAST SEGMENT", Kind.COUNT, here))
-        line = "Copies stand after the last of these segments."
+        line = "The copies follow the last of these segments."
         edited = await self._edited(title, line, (*which, *entries, COPIES_ENTRY), repeated)
         if edited is not None and self.apply(edited, f"{title}, block {place.block}"):
             # messages about the previous edit no longer apply

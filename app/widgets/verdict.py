@@ -160,7 +160,7 @@ def _segments(numbers: str) -> str:
 
 def _extent(block: DerivedBlock) -> str:
     """Return which segments the verdict covers; empty if it covers the whole contour, or nothing."""
-    if block.solved.whole or not block.solved.pieces:
+    if block.solved.fully_determined or not block.solved.pieces:
         return ""
     last = block.solved.pieces[-1][0]
     return ", segment 1 only" if last == 1 else f", segments 1-{last} only"
@@ -252,7 +252,7 @@ def _deleted_chips(block: DerivedBlock, marks: Marks) -> tuple[tuple[str, str], 
 def _stopped_short(case: Case) -> bool:
     """True if the path ends before a segment with an error and gouges nothing up to there."""
     block = case.block
-    open_end = not block.solved.whole and not (case.judgment and case.judgment.gouges)
+    open_end = not block.solved.fully_determined and not (case.judgment and case.judgment.gouges)
     return open_end and any(finding.code not in WAITING_CODES for finding in block.errors)
 
 

@@ -197,7 +197,7 @@ def _one_pass(block: Block, solved: SolvedBlock, program: Program) -> Iterator[F
 
 def _no_contour(solved: SolvedBlock) -> Iterator[Finding]:
     """Report a determined contour with only one segment that has a length, or none; a full circle alone is closed."""
-    if not solved.segments or not solved.whole or solved.closed or len(solved.pieces) > 1:
+    if not solved.segments or not solved.fully_determined or solved.closed or len(solved.pieces) > 1:
         return
     if not solved.pieces:
         text = "No segment has a length: the contour is a point, and there is no path. Correct X END or Y END."

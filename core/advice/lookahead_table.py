@@ -153,5 +153,5 @@ def _verdicts(
     verdicts = {}
     for done, (key, path) in enumerate(distinct.items()):
         progress(done / len(distinct))
-        verdicts[key] = judge(setup.surface, setup.side, cutter, path.whole)
+        verdicts[key] = judge(setup.surface, setup.side, cutter, path.with_leads)
         yield [verdicts.get(each.tested) for each in paths]

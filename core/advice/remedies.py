@@ -138,7 +138,9 @@ def _clean(setup: CuttingSetup, size: int, progress: Progress) -> bool:
     progress(0.0)
     setup = _with_tool(setup, size)
     distinct = {
-        id(control.path): control.whole for control in setup.paths(setup.radius, USUAL_LOOKAHEADS) if len(control.path)
+        id(control.path): control.with_leads
+        for control in setup.paths(setup.radius, USUAL_LOOKAHEADS)
+        if len(control.path)
     }
     return any(judge(setup.surface, setup.side, setup.radius, path).clean for path in distinct.values())
 

@@ -51,15 +51,15 @@ class CenterPath:
     offset: float = 0.0
 
     @property
-    def whole(self) -> Path:
+    def with_leads(self) -> Path:
         """Blend-in, path and blend-out as one path."""
         return joined((self.lead_in, self.path, self.lead_out))
 
     @property
     def plunge_point(self) -> Point | None:
         """The point where the tool goes down; None for a run without pieces."""
-        whole = self.whole
-        return point_of_row(whole.points[0]) if len(whole) else None
+        path = self.with_leads
+        return point_of_row(path.points[0]) if len(path) else None
 
 
 @dataclass(frozen=True, eq=False, slots=True, kw_only=True)

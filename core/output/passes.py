@@ -144,13 +144,13 @@ def level_floor(job: Job) -> bool:
 
 
 def heights(job: Job, run: CenterPath) -> Floats:
-    """Return the (n, 2) heights of the floor under both ends of each piece of `run.whole`.
+    """Return the (n, 2) heights of the floor under both ends of each piece of `run.with_leads`.
 
     The blend-in has the height of the path's first point, the blend-out that of its last; an overlap past the start is
     lifted where the segment below it is higher.
     """
     if level_floor(job):
-        return np.full((len(run.whole), 2), job.z_bottom)
+        return np.full((len(run.with_leads), 2), job.z_bottom)
     path = _floor_heights(job, run.path)
     lead_in = np.full((len(run.lead_in), 2), path[0, 0])
     lead_out = np.maximum(_floor_heights(job, run.lead_out), path[-1, 1])
@@ -274,7 +274,7 @@ def _segments(runs: Sequence[CenterPath]) -> frozenset[int]:
 
 
 def _cut(job: Job, stage: _Stage) -> Iterator[Pass]:
-    runs = tuple(run for run in stage.runs if len(run.whole))
+    runs = tuple(run for run in stage.runs if len(run.with_leads))
     floors = [heights(job, run) + stage.floor_stock for run in runs]
     widths = list(dict.fromkeys(run.offset for run in runs))
     last = len(stage.levels) * len(runs) - 1
@@ -316,7 +316,7 @@ def _down(job: Job, run: CenterPath, depth: float, before: float | None, height:
 
 def _milled(job: Job, run: CenterPath, floors: Floats, level: float) -> Iterator[CenterMove]:
     """Yield the run at `level`, lifted where the floor is higher."""
-    whole = run.whole
+    whole = run.with_leads
     feeds = _feeds(job, run)
     z = max(level, float(floors[0, 0]))
     for piece, feed, (low, high) in zip(whole, feeds, floors.tolist(), strict=True):

@@ -190,10 +190,10 @@ def _reach(job: Job, unit: Unit) -> str:
     """Return the rectangle that the cutters stay in, for placing the clamps."""
     stages = ((job.cutter, rough_runs(job)), (job.finisher, job.finish))
     swept = [
-        run.whole.boxes.T + np.array([-1.0, -1.0, 1.0, 1.0]) * cutter.diameter / 2
+        run.with_leads.boxes.T + np.array([-1.0, -1.0, 1.0, 1.0]) * cutter.diameter / 2
         for cutter, runs in stages
         for run in runs
-        if cutter is not None and len(run.whole)
+        if cutter is not None and len(run.with_leads)
     ]
     if not swept:
         return ""

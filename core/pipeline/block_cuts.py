@@ -67,10 +67,10 @@ def _sweeps(block: DerivedBlock, paths: BlockPaths, work: Job) -> Iterator[tuple
     for cutter, stage in stages:
         if not stage.loops:
             continue
-        first, names, numbers = 0, move_names(stage), np.concatenate([loop.whole.numbers for loop in stage.loops])
+        first, names, numbers = 0, move_names(stage), np.concatenate([loop.with_leads.numbers for loop in stage.loops])
         for loop in stage.loops:
-            rows = np.arange(first, first + len(loop.whole), dtype=np.float64)
-            path = replace(loop.whole, numbers=rows)
+            rows = np.arange(first, first + len(loop.with_leads), dtype=np.float64)
+            path = replace(loop.with_leads, numbers=rows)
             yield Sweep(path, heights(work, loop), cutter.diameter / 2, shapes, number=block.number), (names, numbers)
             first += len(rows)
 

@@ -124,7 +124,7 @@ def _paths(
 
 def _verdict(setup: CuttingSetup, radius: float, loops: tuple[CenterPath, ...]) -> Verdict:
     """Return the verdict on a cutter that runs these loops."""
-    return judge(setup.surface, setup.side, radius, [loop.whole for loop in loops])
+    return judge(setup.surface, setup.side, radius, [loop.with_leads for loop in loops])
 
 
 def _with_findings(block: DerivedBlock, paths: BlockPaths, program: Program, progress: Progress) -> DerivedBlock:
@@ -146,7 +146,7 @@ def _with_findings(block: DerivedBlock, paths: BlockPaths, program: Program, pro
         text = f"MAX OFFSET makes more than {MAX_SIDE_PASSES} side passes. "
         text += "Reduce it or POCKET OVERLAP, or use a larger tool."
         trouble += (Finding("SIDE_PASSES", Severity.ERROR, text, field="max_offset"),)
-    if block.solved.whole:
+    if block.solved.fully_determined:
         trouble += open_finding(paths.surface, 2 * block.radius, closed=closed)
     findings = by_severity((*back, *block.findings, *trouble))
     block = replace(block, paths=paths, complete=True, findings=findings)

@@ -110,7 +110,7 @@ def solve_block_fields(program: Program, number: int) -> DerivedBlock:
         complete=False,
         findings=(
             *shared_findings(program),
-            *solved.every_finding,
+            *solved.all_findings,
             *field_findings(block, solved, program),
             *((typed_lookahead_warning(*usr),) if usr else ()),
         ),
@@ -119,7 +119,7 @@ def solve_block_fields(program: Program, number: int) -> DerivedBlock:
 
 def _look_ahead(block: Block, solved: SolvedBlock) -> LookAhead:
     """Return the look-ahead in force: the operator's value, or the calculated one."""
-    empty = sum(finding.code == "ZERO_LENGTH" for finding in solved.every_finding)
+    empty = sum(finding.code == "ZERO_LENGTH" for finding in solved.all_findings)
     value, typed = calculated(len(solved.segments) - empty, closed=solved.closed), block.lookahead
     if isinstance(typed, Number) and MIN_LOOKAHEAD <= typed.value <= MAX_LOOKAHEAD:
         return LookAhead(int(typed.value), Tag.USR, value)

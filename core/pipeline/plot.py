@@ -214,7 +214,9 @@ def _areas(subject: Subject, dot: float) -> tuple[Area, ...]:
     if block_paths is None or block.radius is None or block.side is None:
         return ()
     verdict = block_paths.verdict if subject.row is None else subject.row.verdict
-    paths = [loop.whole for loop in block_paths.loops] if subject.row is None else [subject.row.compensated.whole]
+    paths = (
+        [loop.with_leads for loop in block_paths.loops] if subject.row is None else [subject.row.compensated.with_leads]
+    )
     if verdict is None or not (verdict.gouges or verdict.uncut):
         return ()
     part = material(block_paths.surface, block.side, block.radius, closed=block.solved.closed, sag=dot / 2)
@@ -256,7 +258,7 @@ def _dashed_paths(work: BlockPaths | None) -> list[Path]:
     """Return the roughing passes, and the control's path if another one is posted."""
     if work is None:
         return []
-    passes = [loop.whole for rough in work.rough for loop in rough.loops]
+    passes = [loop.with_leads for rough in work.rough for loop in rough.loops]
     return passes if work.best is None or work.compensated is None else [*passes, work.compensated.path]
 
 

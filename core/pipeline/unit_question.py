@@ -25,12 +25,15 @@ def unit_question(derived: Derived, *, drawn: bool = False) -> Finding | None:
     if it does not fit, which is an error of its own.  If the part is `drawn`, its unit is that of a drawing, and only
     a very small part is doubtful: a drawing may name the wrong unit.
     """
-    if any(block.block.segments and not block.solved.whole for block in derived.blocks):
+    if any(block.block.segments and not block.solved.fully_determined for block in derived.blocks):
         return None
     closed = [
         block
         for block in derived.blocks
-        if block.paths is not None and block.solved.whole and block.solved.closed and len(block.paths.surface)
+        if block.paths is not None
+        and block.solved.fully_determined
+        and block.solved.closed
+        and len(block.paths.surface)
     ]
     if not closed:
         return None

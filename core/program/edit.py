@@ -72,12 +72,12 @@ Edited = Program | Refused
 
 def type_field(program: Program, where: FormPlace, name: str, typed: Typed) -> Edited:
     """Put a typed value or a blank into a field of START or of a segment."""
-    if refusal := _absent(program, where):
+    if refusal := _place_refusal(program, where):
         return refusal
     part = _part(program, where)
-    refusal = _misfit(_field(part, name), typed, program.unit)
+    refusal = _field_refusal(_field(part, name), typed, program.unit)
     if isinstance(part, Block) and name == "lookahead":
-        refusal = refusal or _lookahead_misfit(part, typed)
+        refusal = refusal or _lookahead_refusal(part, typed)
     if refusal:
         return refusal
     # a relative angle clears TANGENT
@@ -85,7 +85,7 @@ def type_field(program: Program, where: FormPlace, name: str, typed: Typed) -> E
     edited = with_part(program, where, changed(part, {name: typed, **({"tangent": False} if relative else {})}))
     if isinstance(part, Block) or name in NONGEOMETRIC_FIELDS or type(typed) is type(getattr(part, name)):
         return edited
-    return _picked_anew(program, edited, where)
+    return _clear_solutions(program, edited, where)
 
 
 def is_empty(segment: Segment) -> bool:
@@ -99,7 +99,7 @@ def choose(program: Program, where: FormPlace, name: str, value: str | int | Non
     `choice` is the picked solution, an int from 0; the values of the other fields are their words.  None blanks COOLANT
     or clears the picked solution.  Any other value is Refused; raise KeyError for a field that does not exist.
     """
-    if refusal := _absent(program, where):
+    if refusal := _place_refusal(program, where):
         return refusal
     part = _part(program, where)
     field = _field(part, name)
@@ -111,11 +111,11 @@ def choose(program: Program, where: FormPlace, name: str, value: str | int | Non
         return with_part(program, where, changed(part, {name: value}))
     picked = next((choice for choice in field.choices if choice == str(value)), None)
     if picked is None:
-        return _takes(field)
+        return _wrong_choice(field)
     if name == "tangent":
-        return _picked_anew(program, with_part(program, where, _tangent(part, tangent=picked == "YES")), where)
+        return _clear_solutions(program, with_part(program, where, _tangent(part, tangent=picked == "YES")), where)
     chosen = with_part(program, where, changed(part, {name: picked}))
-    return chosen if isinstance(part, Block) else _run_picked_anew(program, chosen, where)
+    return chosen if isinstance(part, Block) else _clear_solutions_of_runs(program, chosen, where)
 
 
 NONGEOMETRIC_FIELDS: Final = ("z_end", "feed", "pick_x", "pick_y")
@@ -124,7 +124,7 @@ NONGEOMETRIC_FIELDS: Final = ("z_end", "feed", "pick_x", "pick_y")
 
 def take_solution(program: Program, where: FormPlace, index: int) -> Edited:
     """Take solution `index` (from 0) of those that SOLUTION lists at a segment."""
-    if refusal := _absent(program, where):
+    if refusal := _place_refusal(program, where):
         return refusal
     block = program.blocks[where.block - 1]
     solution = solution_at(solve_block(block, program), where.segment)
@@ -153,12 +153,12 @@ def _tangent(part: Block | Segment, *, tangent: bool) -> Block | Segment:
     return changed(part, {"tangent": True, **({name: None} if relative else {})})
 
 
-def _picked_anew(old: Program, new: Program, where: FormPlace) -> Program:
+def _clear_solutions(old: Program, new: Program, where: FormPlace) -> Program:
     """Clear the solutions picked at a segment and for the runs that contain it before or after an edit."""
-    return _run_picked_anew(old, _without_choice(new, where.block, where.segment), where)
+    return _clear_solutions_of_runs(old, _without_solution(new, where.block, where.segment), where)
 
 
-def _run_picked_anew(old: Program, new: Program, where: FormPlace) -> Program:
+def _clear_solutions_of_runs(old: Program, new: Program, where: FormPlace) -> Program:
     """Clear the solutions picked for runs that contain a segment or end just before it, before or after an edit."""
     for program in (old, new):
         block = program.blocks[where.block - 1]
@@ -166,11 +166,11 @@ def _run_picked_anew(old: Program, new: Program, where: FormPlace) -> Program:
             continue
         for run in solve_block(block, program).runs:
             if run.first <= where.segment <= run.last + 1:
-                new = _without_choice(new, where.block, run.first)
+                new = _without_solution(new, where.block, run.first)
     return new
 
 
-def _without_choice(program: Program, block: int, number: int) -> Program:
+def _without_solution(program: Program, block: int, number: int) -> Program:
     segments = program.blocks[block - 1].segments
     part = segments[number - 1] if number <= len(segments) else None
     if part is None or isinstance(part, CornerSegment) or part.choice is None:
@@ -182,7 +182,7 @@ def insert_segment(program: Program, where: FormPlace, segment: Segment) -> Edit
     """Insert a segment before `where.segment`; one more than the last number appends it."""
     if where.segment == 0:
         return Refused("START is always first.")
-    if refusal := _absent(program, replace(where, segment=0)):
+    if refusal := _place_refusal(program, replace(where, segment=0)):
         return refusal
     block = program.blocks[where.block - 1]
     before, after = block.segments[: where.segment - 1], block.segments[where.segment - 1 :]
@@ -192,40 +192,40 @@ def insert_segment(program: Program, where: FormPlace, segment: Segment) -> Edit
         if not before:
             return Refused(f"A {form_of(segment)} cannot be the first segment: it stands between two others.")
         if other := next((each for each in (*before[-1:], *after[:1]) if isinstance(each, CornerSegment)), None):
-            what = "another" if form_of(other) is form_of(segment) else "a"
-            return Refused(f"A {form_of(segment)} cannot be next to {what} {form_of(other)}.")
+            article = "another" if form_of(other) is form_of(segment) else "a"
+            return Refused(f"A {form_of(segment)} cannot be next to {article} {form_of(other)}.")
     after = tuple(renumbered(following, where.segment, 1) for following in after)
-    whole = with_part(program, FormPlace(where.block), replace(block, segments=(*before, segment, *after)))
-    return _run_picked_anew(whole, whole, where)
+    edited = with_part(program, FormPlace(where.block), replace(block, segments=(*before, segment, *after)))
+    return _clear_solutions_of_runs(edited, edited, where)
 
 
 def delete_segment(program: Program, where: FormPlace) -> Edited:
     """Delete a segment; the next one then starts at the end of the one before."""
     if where.segment == 0:
         return Refused("START cannot be deleted.")
-    if refusal := _absent(program, where):
+    if refusal := _place_refusal(program, where):
         return refusal
     block = program.blocks[where.block - 1]
     after = (renumbered(segment, where.segment, -1) for segment in block.segments[where.segment :])
-    left = _run_picked_anew(program, program, where).blocks[where.block - 1].segments[: where.segment - 1]
-    whole = with_part(program, FormPlace(where.block), replace(block, segments=(*left, *after)))
-    return _run_picked_anew(whole, whole, where)
+    earlier = _clear_solutions_of_runs(program, program, where).blocks[where.block - 1].segments[: where.segment - 1]
+    edited = with_part(program, FormPlace(where.block), replace(block, segments=(*earlier, *after)))
+    return _clear_solutions_of_runs(edited, edited, where)
 
 
 def renumbered(segment: Segment, at: int, step: int) -> Segment:
     """Adjust PARALLEL TO of a segment after segments are inserted from `at` on (step > 0) or `at` is deleted (-1)."""
-    held = segment.parallel if isinstance(segment, LineSegment) else None
-    if not isinstance(held, Number) or held.value < at:
+    target = segment.parallel if isinstance(segment, LineSegment) else None
+    if not isinstance(target, Number) or target.value < at:
         return segment
-    if step < 0 and held.value == at:
-        return changed(segment, {"parallel": Unread(f"{held.value:.0f}", f"Segment {at} was deleted.")})
-    return changed(segment, {"parallel": Number(held.value + step)})
+    if step < 0 and target.value == at:
+        return changed(segment, {"parallel": Unread(f"{target.value:.0f}", f"Segment {at} was deleted.")})
+    return changed(segment, {"parallel": Number(target.value + step)})
 
 
 def recalculate_lookahead(program: Program, block: int) -> Edited:
     """Go back to the calculated look-ahead: USR becomes CAL."""
     where = FormPlace(block)
-    if refusal := _absent(program, where):
+    if refusal := _place_refusal(program, where):
         return refusal
     return with_part(program, where, replace(program.blocks[block - 1], lookahead=None))
 
@@ -277,22 +277,22 @@ def share_values(program: Program, at: int, *, only_blank: bool) -> Edited:
 
 def copy_block(program: Program, at: int) -> Edited:
     """Insert a copy of a block after it."""
-    if refusal := _absent(program, FormPlace(at)):
+    if refusal := _place_refusal(program, FormPlace(at)):
         return refusal
     return replace(program, blocks=(*program.blocks[:at], *program.blocks[at - 1 :]))
 
 
 def move_block(program: Program, at: int, to: int) -> Edited:
     """Move block `at` so that its number becomes `to`."""
-    if refusal := _absent(program, FormPlace(at)) or _absent(program, FormPlace(to)):
+    if refusal := _place_refusal(program, FormPlace(at)) or _place_refusal(program, FormPlace(to)):
         return refusal
-    rest = program.blocks[: at - 1] + program.blocks[at:]
-    return replace(program, blocks=(*rest[: to - 1], program.blocks[at - 1], *rest[to - 1 :]))
+    others = program.blocks[: at - 1] + program.blocks[at:]
+    return replace(program, blocks=(*others[: to - 1], program.blocks[at - 1], *others[to - 1 :]))
 
 
 def delete_block(program: Program, at: int) -> Edited:
     """Delete a block; the only block cannot be deleted."""
-    if refusal := _absent(program, FormPlace(at)):
+    if refusal := _place_refusal(program, FormPlace(at)):
         return refusal
     if len(program.blocks) == 1:
         return Refused("The only block cannot be deleted: a program has at least one.")
@@ -301,10 +301,10 @@ def delete_block(program: Program, at: int) -> Edited:
 
 def set_tool(program: Program, tool: Tool) -> Edited:
     """Put a tool into the tool table, replacing the one with its number; the table stays sorted by number."""
-    if refusal := _misfit(field_of(Form.TOOL, "number"), Number(tool.number), program.unit):
+    if refusal := _field_refusal(field_of(Form.TOOL, "number"), Number(tool.number), program.unit):
         return refusal
     for name in ("diameter", "speed", "feed", "plunge_feed"):
-        if refusal := _misfit(field_of(Form.TOOL, name), getattr(tool, name), program.unit):
+        if refusal := _field_refusal(field_of(Form.TOOL, name), getattr(tool, name), program.unit):
             return refusal
     if refusal := _not_displayable(field_of(Form.TOOL, "type").label, tool.type):
         return refusal
@@ -314,15 +314,15 @@ def set_tool(program: Program, tool: Tool) -> Edited:
 
 def delete_tool(program: Program, number: int) -> Edited:
     """Delete a tool from the table; blocks that call it then report it missing."""
-    left = tuple(tool for tool in program.tools if tool.number != number)
-    if len(left) == len(program.tools):
+    others = tuple(tool for tool in program.tools if tool.number != number)
+    if len(others) == len(program.tools):
         return Refused(f"Tool {number} is not in the tool table.")
-    return replace(program, tools=left)
+    return replace(program, tools=others)
 
 
 def set_parameter(program: Program, name: str, typed: Typed) -> Edited:
     """Put a typed value, or a blank for the default, into a field of PROGRAM PARAMETERS."""
-    if refusal := _misfit(field_of(Form.PARAMETERS, name), typed, program.unit):
+    if refusal := _field_refusal(field_of(Form.PARAMETERS, name), typed, program.unit):
         return refusal
     return replace(program, parameters=changed(program.parameters, {name: typed}))
 
@@ -338,7 +338,7 @@ def set_setup(program: Program, name: str, value: str | Typed) -> Edited:
     if isinstance(value, str):
         if refusal := _not_displayable(field.label, value):
             return refusal
-    elif refusal := _misfit(field, value, program.unit):
+    elif refusal := _field_refusal(field, value, program.unit):
         return refusal
     return replace(program, setup=changed(program.setup, {name: value}))
 
@@ -373,16 +373,18 @@ def set_unit(program: Program, unit: Unit) -> Program:
 
 def _converted_defaults(part: Part, table: tuple[Field, ...], old: Unit, new: Unit) -> Part:
     """Return a converted copy, with blanks written out first and values equal to a default blanked again."""
-    there = _converted(_defaults_typed(part, table, old), table, old, new)
-    usual = ((field.name, default_value(field.name, new)) for field in table if field.kind is Kind.LENGTH)
-    return changed(there, {name: None for name, value in usual if value and getattr(there, name) == Number(value)})
+    converted = _converted(_with_defaults_typed(part, table, old), table, old, new)
+    defaults = ((field.name, default_value(field.name, new)) for field in table if field.kind is Kind.LENGTH)
+    return changed(
+        converted, {name: None for name, value in defaults if value and getattr(converted, name) == Number(value)}
+    )
 
 
-def _defaults_typed(part: Part, table: tuple[Field, ...], unit: Unit) -> Part:
+def _with_defaults_typed(part: Part, table: tuple[Field, ...], unit: Unit) -> Part:
     """Return a copy with blank lengths set to the unit's defaults, except those that are 0 in every unit."""
     blank = (field.name for field in table if field.kind is Kind.LENGTH and getattr(part, field.name) is None)
-    usual = ((name, default_value(name, unit)) for name in blank)
-    return changed(part, {name: Number(value) for name, value in usual if value})
+    defaults = ((name, default_value(name, unit)) for name in blank)
+    return changed(part, {name: Number(value) for name, value in defaults if value})
 
 
 def _converted_block(block: Block, old: Unit, new: Unit) -> Block:
@@ -394,52 +396,52 @@ def _converted(part: Part, table: tuple[Field, ...], old: Unit, new: Unit) -> Pa
     """Return a copy with lengths and feeds converted; unread text stays, with its reason worded in the new unit."""
     typed = [(field, getattr(part, field.name)) for field in table if field.kind in (Kind.LENGTH, Kind.FEED)]
     entries = {
-        field.name: type(held)(convert(held.value, old, new))
-        for field, held in typed
-        if isinstance(held, Number | Relative)
+        field.name: type(value)(convert(value.value, old, new))
+        for field, value in typed
+        if isinstance(value, Number | Relative)
     }
     texts = {
-        field.name: Unread(held.text, unread_reason(held.text, field, new))
-        for field, held in typed
-        if isinstance(held, Unread)
+        field.name: Unread(value.text, unread_reason(value.text, field, new))
+        for field, value in typed
+        if isinstance(value, Unread)
     }
     return changed(part, {**entries, **texts})
 
 
-def _absent(program: Program, where: FormPlace) -> Refused | None:
+def _place_refusal(program: Program, where: FormPlace) -> Refused | None:
     if not 1 <= where.block <= len(program.blocks):
         return _does_not_exist("block", where.block, len(program.blocks))
     count = len(program.blocks[where.block - 1].segments)
     return None if 0 <= where.segment <= count else _does_not_exist("segment", where.segment, count)
 
 
-def _does_not_exist(thing: str, number: int, count: int) -> Refused:
-    last = f"the last is {count}." if count else f"no {thing} is typed yet."
-    return Refused(f"{thing.capitalize()} {number} does not exist; {last}")
+def _does_not_exist(noun: str, number: int, count: int) -> Refused:
+    last = f"the last is {count}." if count else f"no {noun} is typed yet."
+    return Refused(f"{noun.capitalize()} {number} does not exist; {last}")
 
 
-def _misfit(field: Field, typed: Typed, unit: Unit) -> Refused | None:
+def _field_refusal(field: Field, typed: Typed, unit: Unit) -> Refused | None:
     """Return a refusal if a field does not accept what was typed."""
     if field.kind is Kind.CHOICE:
-        return _takes(field)
+        return _wrong_choice(field)
     if isinstance(typed, Relative) and not field.relative:
         return Refused(f"{field.label} takes no relative number: type it without I.")
     text = value_refusal(field, typed.value, unit) if isinstance(typed, Number | Relative) else None
     return None if text is None else Refused(text)
 
 
-def _takes(field: Field) -> Refused:
+def _wrong_choice(field: Field) -> Refused:
     return Refused(f"{field.label} takes {', '.join(field.choices)}.")
 
 
-def _lookahead_misfit(block: Block, typed: Typed) -> Refused | None:
+def _lookahead_refusal(block: Block, typed: Typed) -> Refused | None:
     if isinstance(typed, Number | Relative) or typed == block.lookahead:
         return None
     field = field_of(Form.START, "lookahead")
     unreadable = typed is not None and text_refusal(typed.text, field, Unit.MM) is None
-    again = f" {printable(typed.text)} cannot be read." if unreadable and typed is not None else ""
-    back = "" if block.lookahead is None else " Press F3 to go back to CAL."
-    return Refused(f"{field.label} must be a whole number {range_of(field, Unit.MM)}.{again}{back}")
+    quoted = f" {printable(typed.text)} cannot be read." if unreadable and typed is not None else ""
+    remedy = "" if block.lookahead is None else " Press F3 to go back to CAL."
+    return Refused(f"{field.label} must be a whole number {range_of(field, Unit.MM)}.{quoted}{remedy}")
 
 
 def _part(program: Program, where: FormPlace) -> Block | Segment:

@@ -269,13 +269,19 @@ def field_of(form: Form, name: str) -> Field:
 
 def value_refusal(field: Field, value: float, unit: Unit) -> str | None:
     """Return the sentence that refuses a value (in program units), None if the field accepts it."""
-    whole = field.kind is Kind.COUNT
+    whole_number = field.kind is Kind.COUNT
     low, high = bounds(field, unit)
-    fits = isfinite(value) and (not whole or value == int(value))
-    fits = fits and (low is None or value >= low) and (high is None or value <= high)
-    if fits and (field.above is None or value > field.above):
+    refused = (
+        not isfinite(value)
+        or (whole_number and value != int(value))
+        or (low is not None and value < low)
+        or (high is not None and value > high)
+        or (field.above is not None and value <= field.above)
+    )
+    if not refused:
         return None
-    return f"{field.label} must be {'a whole number ' if whole else ''}{range_of(field, unit) or 'a finite number'}."
+    wanted = f"{'a whole number ' if whole_number else ''}{range_of(field, unit) or 'a finite number'}"
+    return f"{field.label} must be {wanted}."
 
 
 def bounds(field: Field, unit: Unit) -> tuple[float | None, float | None]:

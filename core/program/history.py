@@ -81,8 +81,8 @@ def splice(old: tuple[Item, ...], new: tuple[Item, ...]) -> Splice[Item]:
     """Return the shortest middle part in which two tuples differ."""
     shorter = min(len(old), len(new))
     front = next((index for index in range(shorter) if not same(old[index], new[index])), shorter)
-    most = shorter - front
-    back = next((step for step in range(most) if not same(old[-1 - step], new[-1 - step])), most)
+    remaining = shorter - front
+    back = next((step for step in range(remaining) if not same(old[-1 - step], new[-1 - step])), remaining)
     return Splice(front, old[front : len(old) - back], new[front : len(new) - back])
 
 

@@ -89,8 +89,8 @@ def _is_inch_size(diameter: float, depth: float) -> bool:
     """True if a diameter in millimeters looks as if it was typed in inches, for a cut of this depth."""
     if not 0.0 < diameter < 1.0 or not (diameter * INCH_STEPS).is_integer():
         return False
-    usual_too = (diameter * 4.0).is_integer()
-    return not usual_too or depth > MAX_DEPTH_IN_DIAMETERS * diameter
+    usual_in_mm = (diameter * 4.0).is_integer()
+    return not usual_in_mm or depth > MAX_DEPTH_IN_DIAMETERS * diameter
 
 
 TOOL_TABLE: Final = "TOOLTABLE"
@@ -173,7 +173,7 @@ def read_tool_table(text: str, unit: Unit, program: Unit) -> ImportedTools:
             findings.append(row)
         else:
             rows.append(row)
-    findings += [finding for row in rows for finding in _objections(row, unit, program)] + list(_twice(rows))
+    findings += [finding for row in rows for finding in _objections(row, unit, program)] + list(_duplicates(rows))
     if not rows and not findings:
         findings.append(_fault("There is no tool in this table."))
     findings.sort(key=lambda finding: (finding.line or 0, finding.column or 0))
@@ -230,16 +230,16 @@ def _objections(row: TableLine, unit: Unit, program: Unit) -> Iterator[Finding]:
         yield row.finding(Severity.ERROR, "D", trouble)
 
 
-def _twice(rows: Iterable[TableLine]) -> Iterator[Finding]:
-    first: dict[int, int] = {}
+def _duplicates(rows: Iterable[TableLine]) -> Iterator[Finding]:
+    lines_of: dict[int, int] = {}
     for row in rows:
-        before = first.setdefault(row.number, row.line)
-        if before != row.line:
-            yield row.finding(Severity.ERROR, "T", f"Tool {row.number} is already on line {before}.")
+        first_line = lines_of.setdefault(row.number, row.line)
+        if first_line != row.line:
+            yield row.finding(Severity.ERROR, "T", f"Tool {row.number} is already on line {first_line}.")
 
 
 def _tool(row: TableLine, unit: Unit, program: Unit) -> Tool:
     value = row.words.get("D", 0.0)
     size = Number(convert(value, unit, program)) if value else None
-    kind = "".join(character for character in row.remark if character.isprintable())[:40].strip()
-    return Tool(row.number, kind or Tool(row.number).type, size)
+    tool_type = "".join(character for character in row.remark if character.isprintable())[:40].strip()
+    return Tool(row.number, tool_type or Tool(row.number).type, size)

@@ -48,9 +48,9 @@ def arrays(draw: st.DrawFn, numbers: st.SearchStrategy[float]) -> Path:
 def _everything(contour: Path, side: Side, radius: float, *, closed: bool) -> None:
     """Nothing raises, an unjudged path is not clean, and a missing path is an error."""
     for result in compensate_all(contour, side, radius, (1, 3, 8, 20), closed=closed, blend=0.1, overlap=0.1):
-        assert np.isfinite(result.whole.points).all()
+        assert np.isfinite(result.with_leads.points).all()
         assert len(result.path) or any(finding.severity is Severity.ERROR for finding in result.findings)
-        verdict = judge(contour, side, radius, result.whole)
+        verdict = judge(contour, side, radius, result.with_leads)
         assert not (verdict.clean and not verdict.judged)
     best = best_path(contour, side, radius, closed=closed)
     assert best.loops or any(finding.severity is Severity.ERROR for finding in best.findings)

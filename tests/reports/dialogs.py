@@ -156,10 +156,8 @@ DIALOGS: Final = (
     ),
     Dialog("IMPORT", (PART,), keys_of("f6", "f3", "enter"), "IMPORT?", ("IMPORT", *GO_BACK)),
     Dialog("TOOLS", POCKET, ("ctrl+home", "tab", "space"), "TOOLS", ("END MILL",)),
-    Dialog("SHIFT BLOCK", POCKET, palette("shift block"), "SHIFT BLOCK", ("How far, in X and Y.", "X", "Y")),
-    Dialog(
-        "ROTATE BLOCK", POCKET, palette("rotate block"), "ROTATE BLOCK", ("Counter-clockwise about a point", "ANGLE")
-    ),
+    Dialog("SHIFT BLOCK", POCKET, palette("shift block"), "SHIFT BLOCK", ("Distance to move", "X", "Y")),
+    Dialog("ROTATE BLOCK", POCKET, palette("rotate block"), "ROTATE BLOCK", ("Counterclockwise about", "ANGLE")),
     Dialog("MIRROR BLOCK", POCKET, palette("mirror block"), "MIRROR BLOCK", ("In the line through X, Y at ANGLE",)),
     Dialog("REPEAT", POCKET, palette("repeat segments, shifted"), "REPEAT, SHIFTED", ("FIRST SEGMENT", "LAST SEGMENT")),
     Dialog("PALETTE", POCKET, ("ctrl+k",), "Search for commands", ("PART SETUP", "EXIT to program")),

@@ -28,7 +28,7 @@ def edited(case: dict[str, Any], choices: dict[int, int], edits: int, pick: rand
         case = {**case, "start": [case["start"][0] + step[0], case["start"][1] + step[1]]}
         after = solved(case, choices)
         told["edits"] += 1
-        if not after.whole:
+        if not after.fully_determined:
             told["asked again" if _asks(after) else "no answer any more"] += 1
             return told
         if _farthest(before, after) > 100.0 * hypot(*step) + 1e-9:
@@ -61,7 +61,7 @@ def report(runs: int, edits: int, first: int) -> None:
         told["runs"] += 1
         for answer in several[0].answers:
             choices = {several[0].first: answer.choice or 0}
-            if solved(case, choices).whole:
+            if solved(case, choices).fully_determined:
                 outcome = edited(case, choices, edits, random.Random(seed))
                 told["picked solutions"] += 1
                 told += outcome

@@ -226,12 +226,12 @@ def _rebuilt(element: Element) -> Element:
 
 def path_begin(compensated: Compensated) -> PathEnd:
     """Return where and how the tool's path begins."""
-    return _end(compensated, compensated.whole, compensated.lead_in, 1)
+    return _end(compensated, compensated.with_leads, compensated.lead_in, 1)
 
 
 def path_finish(compensated: Compensated) -> PathEnd:
     """Return where and how the tool's path ends."""
-    return _end(compensated, compensated.whole.reversed(), compensated.lead_out.reversed(), -1)
+    return _end(compensated, compensated.with_leads.reversed(), compensated.lead_out.reversed(), -1)
 
 
 def _end(compensated: Compensated, whole: Path, lead: Path, sense: int) -> PathEnd:

@@ -181,7 +181,7 @@ def _level(made: ControlRun, stretch: Stretch, cut: CompensatedPass, intended: I
 
 def compare_path(made: Path, cut: CompensatedPass, intended: Intended) -> Finding | None:
     """Compare the control's path with the block's; return an error, a note if it differs, or None."""
-    whole, tolerance = cut.compensated.whole, intended.tolerance
+    whole, tolerance = cut.compensated.with_leads, intended.tolerance
     inner = made.part(1, len(made) - 1) if intended.leads and len(made) > 2 else made
     if same_pieces(inner, whole, tolerance):
         apart, number = 0.0, 0.0
@@ -237,7 +237,7 @@ def _damage(made: Path, inner: Path, cut: CompensatedPass, intended: Intended, *
             text = f"The move into the cut or out of it, as {intended.control_name} needs it, gouges the part by {{0}}."
         segment = worst.gouges[0].surface_number if worst.gouges else None
         return not_written(text, segment, lengths=(worst.depth,))
-    planned = judge(contour, side, cut.diameter / 2, cut.compensated.whole) if differs else verdicts[0]
+    planned = judge(contour, side, cut.diameter / 2, cut.compensated.with_leads) if differs else verdicts[0]
     if not planned.judged:
         return not_written("The block's path cannot be judged.")
     if (more := _length_left(verdicts[0], intended) - _length_left(planned, intended)) > intended.tolerance:

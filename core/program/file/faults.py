@@ -66,7 +66,7 @@ def line_of(lines: Mapping[KeyPath, int], path: KeyPath) -> int:
     return lines[path]
 
 
-def cut_off(text: str) -> str | None:
+def truncation(text: str) -> str | None:
     """Return line and sentence for a text that announces a last line but lacks it, None for any other text."""
     if _PROMISED.search(text) is None or _ENDED.search(text) is not None:
         return None
@@ -94,9 +94,9 @@ def syntax_fault(fault: str, text: str) -> str:
     lines = text.splitlines() or [""]
     stops_in_last_line = line is None or (int(line) >= len(lines) and not text.endswith("\n"))
     if not stops_in_last_line:
-        twice = _BARE_KEY.match(lines[int(line) - 1]) if problem == "Cannot overwrite a value" else None
-        if twice is not None:
-            return f"{place.partition(',')[0]}: {twice[1]} appears twice: remove one."
+        repeated_key = _BARE_KEY.match(lines[int(line) - 1]) if problem == "Cannot overwrite a value" else None
+        if repeated_key is not None:
+            return f"{place.partition(',')[0]}: {repeated_key[1]} appears twice: remove one."
         return f"{place}: {problem}. Correct it there, or open a saved copy."
     key = _BARE_KEY.match(lines[-1])
     where = f"line {len(lines)}{f', {key[1]}' if key else ''}"

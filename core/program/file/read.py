@@ -25,7 +25,7 @@ from core.program.fields import (
     unread_reason,
     value_refusal,
 )
-from core.program.file.faults import KeyPath, cut_off, key_lines, line_of, syntax_fault
+from core.program.file.faults import KeyPath, key_lines, line_of, syntax_fault, truncation
 from core.program.file.write import BLOCK_KIND, FILE_FORMAT, NEWER_FORMAT, RELATIVE_SUFFIX, UNREAD_TABLE
 from core.program.model import (
     ArcSegment,
@@ -187,17 +187,17 @@ def loads_bytes(data: bytes, file: str) -> Program:
     try:
         text = data.decode("utf-8-sig")
     except UnicodeDecodeError as error:
-        whole = data[: error.start].decode("utf-8-sig")
-        if error.end == len(data) and (lost := cut_off(whole)) is not None:
-            raise StoreError(f"{file}, {lost}") from error
+        readable = data[: error.start].decode("utf-8-sig")
+        if error.end == len(data) and (fault := truncation(readable)) is not None:
+            raise StoreError(f"{file}, {fault}") from error
         line = data.count(b"\n", 0, error.start) + 1
         raise StoreError(f"{file}, line {line}: this is not UTF-8 text. Save it as UTF-8, or open a copy.") from error
     return loads(text, file)
 
 
 def _parsed(text: str, file: str) -> dict[str, Any]:
-    if (lost := cut_off(text)) is not None:
-        raise StoreError(f"{file}, {lost}")
+    if (fault := truncation(text)) is not None:
+        raise StoreError(f"{file}, {fault}")
     try:
         return tomllib.loads(text)
     except RecursionError:
@@ -305,8 +305,8 @@ def _choice(table: _Table) -> int | None:
     value = table.data.get("choice")
     if value is None or (type(value) is int and 0 <= value <= MAX_CHOICE):
         return value
-    way = f"write a whole number from 0 to {MAX_CHOICE}, or remove it."
-    raise table.fault("choice", f"choice cannot be {_written(value)}: {way}")
+    remedy = f"write a whole number from 0 to {MAX_CHOICE}, or remove it."
+    raise table.fault("choice", f"choice cannot be {_written(value)}: {remedy}")
 
 
 def _tangent(table: _Table) -> bool:

@@ -17,7 +17,7 @@ from collections.abc import Iterator, Sequence, Set
 from dataclasses import dataclass, field, replace
 from itertools import takewhile
 from math import dist
-from typing import Final, assert_never
+from typing import Final, NamedTuple, assert_never
 
 from core.finding import Finding, Severity
 from core.geometry.corner import NoCorner, Reason, chamfer, fillet
@@ -25,8 +25,8 @@ from core.geometry.piece import Piece
 from core.program.fields import FIELDS_OF_FORM, Form, field_of, form_of, typed_trouble
 from core.program.model import BlendSegment, Block, Coolant, CornerSegment, CutterComp, Number, Program, Segment, Tool
 from core.program.solve.reading import Reading, read_form, usable
-from core.program.solve.run_of_segments import TypedContour, place_faults, run_at
-from core.program.solve.segment import Carried, Draft, draft, typed_point
+from core.program.solve.run_of_segments import TypedContour, reference_faults, run_at
+from core.program.solve.segment import Carried, Draft, solve_segment, typed_point
 from core.program.solve.solved import Origin, SolvedBlock, SolvedRun, SolvedSegment
 from core.program.tools import CalledTool, called_tool
 from core.tolerance import CLOSED
@@ -52,7 +52,7 @@ def solve_block(block: Block, program: Program) -> SolvedBlock:
     corners, adjusted = _corners(block, drafts), _adjustment(drafts)
     segments = tuple(_segment(index, draft, corners, adjusted.get(index)) for index, draft in enumerate(drafts))
     determined = list(takewhile(lambda segment: segment.start is not None and segment.end is not None, segments))
-    known = start.reading.known
+    known, (coolant, coolant_origin) = start.reading.known, start.coolant
     return SolvedBlock(
         values=start.reading.values,
         segments=segments,
@@ -67,8 +67,8 @@ def solve_block(block: Block, program: Program) -> SolvedBlock:
         speed=known.get("speed"),
         peck_depth=known.get("peck_depth", 0.0),
         findings=start.findings,
-        coolant=start.coolant[0],
-        coolant_origin=start.coolant[1],
+        coolant=coolant,
+        coolant_origin=coolant_origin,
         pieces=tuple((segment.number, segment.piece) for segment in determined if segment.piece is not None),
         runs=runs,
     )
@@ -96,13 +96,13 @@ def _drafts(block: Block, unit: Unit, start: _Start) -> tuple[list[Draft], tuple
     contour = TypedContour(block.segments, readings, drafts, unit)
     while len(drafts) < len(readings):
         index = len(drafts)
-        own_draft = draft(block.segments[index], readings[index].copy(), carried, unit)
-        together, run = run_at(contour, index, own_draft) or ((own_draft,), None)
-        drafts += together
+        own_draft = solve_segment(block.segments[index], readings[index].copy(), carried, unit)
+        new_drafts, run = run_at(contour, index, own_draft) or ((own_draft,), None)
+        drafts += new_drafts
         runs += [run] if run is not None else []
         carried = drafts[-1].after
     for index, item in enumerate(drafts):
-        findings = (*place_faults(contour, index), *item.result.findings)
+        findings = (*reference_faults(contour, index), *item.result.findings)
         drafts[index] = replace(item, result=replace(item.result, findings=findings))
     return drafts, tuple(runs)
 
@@ -110,14 +110,14 @@ def _drafts(block: Block, unit: Unit, start: _Start) -> tuple[list[Draft], tuple
 def _corners(block: Block, drafts: Sequence[Draft]) -> Corners:
     """Insert the blends and chamfers into the surface."""
     corners = [index for index, segment in enumerate(block.segments) if isinstance(segment, CornerSegment)]
-    sizes = {
-        index: known[name]
-        for index in corners
-        if (name := FIELDS_OF_FORM[form_of(block.segments[index])][0].name) in (known := drafts[index].reading.known)
-    }
+    sizes = dict[int, float]()
+    for index in corners:
+        size_field, known = FIELDS_OF_FORM[form_of(block.segments[index])][0].name, drafts[index].reading.known
+        if size_field in known:
+            sizes[index] = known[size_field]
     results = [draft.result for draft in drafts]
     lengthless = {index for index, result in enumerate(results) if result.piece is None and result.end is not None}
-    return put_corners_in(block.segments, [result.piece for result in results], sizes, lengthless.difference(corners))
+    return insert_corners(block.segments, [result.piece for result in results], sizes, lengthless.difference(corners))
 
 
 def _adjustment(drafts: Sequence[Draft]) -> dict[int, Finding]:
@@ -271,7 +271,7 @@ class Corners:
     waiting: set[int] = field(default_factory=set)
 
 
-def put_corners_in(
+def insert_corners(
     segments: Sequence[Segment], pieces: Sequence[Piece | None], sizes: dict[int, float], lengthless: Set[int]
 ) -> Corners:
     """Return the pieces of the segments with every BLEND ARC and CHAMFER inserted.
@@ -285,7 +285,7 @@ def put_corners_in(
             continue
         fault = _misplaced(segments, index, segment)
         if fault is None and index in sizes:
-            fault = _put_in(corners.pieces, index, segment, sizes[index], determined)
+            fault = _insert_corner(corners.pieces, index, segment, sizes[index], determined)
         if fault is not None:
             corners.faults[index] = fault
         if corners.pieces[index] is None:
@@ -293,9 +293,10 @@ def put_corners_in(
     return corners
 
 
-def _fault(segment: CornerSegment, what: str, text: str, value: float | None = None, *lengths: float) -> Finding:
-    verb, _, label = _words(segment)
-    return Finding(f"{verb.upper()}_{what}", Severity.ERROR, text, field=label.lower(), value=value, lengths=lengths)
+def _fault(segment: CornerSegment, fault: str, text: str, value: float | None = None, *lengths: float) -> Finding:
+    verb, size_label = _words(segment).verb, _words(segment).size_label
+    code = f"{verb.upper()}_{fault}"
+    return Finding(code, Severity.ERROR, text, field=size_label.lower(), value=value, lengths=lengths)
 
 
 def _misplaced(segments: Sequence[Segment], index: int, segment: CornerSegment) -> Finding | None:
@@ -312,7 +313,7 @@ def _misplaced(segments: Sequence[Segment], index: int, segment: CornerSegment) 
     return _fault(segment, "PLACE", text)
 
 
-def _put_in(
+def _insert_corner(
     pieces: list[Piece | None], index: int, segment: CornerSegment, size: float, determined: Set[int]
 ) -> Finding | None:
     """Insert a blend or chamfer and shorten its neighbors, or return why not; wait for an undetermined neighbor."""
@@ -330,21 +331,31 @@ def _no_neighbor(
     pieces: Sequence[Piece | None], index: int, segment: CornerSegment, determined: Set[int]
 ) -> Finding | None:
     """Return a fault if a determined neighbor has no length, or none left."""
-    verb, _, what = _words(segment)
+    words = _words(segment)
     for neighbor in (index - 1, index + 1):
         if pieces[neighbor] is None and neighbor in determined:
-            text = f"Segment {neighbor + 1} has no length left to {verb}: correct it or delete this {form_of(segment)}."
-            return _fault(segment, what, text)
+            remedy = f"correct it or delete this {form_of(segment)}."
+            text = f"Segment {neighbor + 1} has no length left to {words.verb}: {remedy}"
+            return _fault(segment, words.size_label, text)
     return None
 
 
-def _words(segment: CornerSegment) -> tuple[str, str, str]:
-    """Return the verb for what is done to the corner, the noun for what fills it, and the label of its size field."""
-    return ("blend", "arc", "RADIUS") if isinstance(segment, BlendSegment) else ("chamfer", "chamfer", "LENGTH")
+class _CornerWords(NamedTuple):
+    """How sentences speak of a corner: what is done to it, what fills it, and the label of its size field."""
+
+    verb: str
+    noun: str
+    size_label: str
+
+
+def _words(segment: CornerSegment) -> _CornerWords:
+    if isinstance(segment, BlendSegment):
+        return _CornerWords("blend", "arc", "RADIUS")
+    return _CornerWords("chamfer", "chamfer", "LENGTH")
 
 
 def _refused(refused: NoCorner, segment: CornerSegment, number: int, size: float) -> Finding:
-    verb, noun, what = _words(segment)
+    verb, noun, size_label = _words(segment)
     pair = f"segments {number - 1} and {number + 1}"
     match refused.reason:
         case Reason.TANGENT:
@@ -352,12 +363,12 @@ def _refused(refused: NoCorner, segment: CornerSegment, number: int, size: float
             return _fault(segment, "TANGENT", text)
         case Reason.REVERSAL:
             text = f"No {noun} fits: segment {number + 1} goes straight back along segment {number - 1}."
-            return _fault(segment, what, text)
+            return _fault(segment, size_label, text)
         case Reason.TOO_LARGE if refused.largest is not None:
-            text = f"{what} {{value~0}} does not fit between {pair}: the largest that fits is {{0-}}."
-            return _fault(segment, what, text, size, refused.largest)
+            text = f"{size_label} {{value~0}} does not fit between {pair}: the largest that fits is {{0-}}."
+            return _fault(segment, size_label, text, size, refused.largest)
         case Reason.TOO_LARGE:
-            text = f"{what} {{value}} does not fit between {pair}: enter a smaller one."
-            return _fault(segment, what, text, size)
+            text = f"{size_label} {{value}} does not fit between {pair}: enter a smaller one."
+            return _fault(segment, size_label, text, size)
         case _:
             assert_never(refused.reason)

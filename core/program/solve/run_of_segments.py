@@ -24,7 +24,16 @@ from core.program.solve.run.branch import MAX_RUN_LENGTH, Branch, Element, Paral
 from core.program.solve.run.fitting_number import with_fitting_number
 from core.program.solve.run.from_pick import Picked, picked_answers
 from core.program.solve.run.search import Search, search
-from core.program.solve.segment import TURNS, Carried, Draft, SegmentResult, axis_kept_from, calculate, draft, drafted
+from core.program.solve.segment import (
+    TURNS,
+    Carried,
+    Draft,
+    SegmentResult,
+    axis_kept_from,
+    calculate,
+    draft_of_result,
+    solve_segment,
+)
 from core.program.solve.solved import Origin, RunAnswer, SolvedRun
 from core.tolerance import JOINED
 from core.units import Unit, from_mm
@@ -32,16 +41,16 @@ from core.units import Unit, from_mm
 RELATIONS = ("point_x", "point_y", "point_dist", "parallel", "offset", "start_angle", "start_angle_inc", "angle_inc")
 """Data that relate a segment to a point or another segment; the rules for a segment by itself do not use them."""
 
-SKETCHED = 0.2
+SKETCH_SHARE = 0.2
 """Length drawn for an element of which only the heading is known, as a fraction of the run's size."""
 
-ENDING = {"x_end", "y_end", "x_end_inc", "y_end_inc", "length", "sweep"}
+END_DATA = {"x_end", "y_end", "x_end_inc", "y_end_inc", "length", "sweep"}
 """Data that fix where an element ends along its line or circle; the last element of a run needs one of them."""
 
-KEPT = ("x_end_inc", "y_end_inc")
-"""The relative coordinate that is 0 for a LINE that keeps a coordinate, by axis."""
+KEPT_COORDINATE = ("x_end_inc", "y_end_inc")
+"""By axis, the relative end coordinate that is 0 for a LINE that keeps the coordinate of its start."""
 
-SQUARE = 1e-9
+MAX_SQUARE_COSINE = 1e-9
 """Largest cosine of the angle between a line and an axis at which they count as square."""
 
 
@@ -72,7 +81,9 @@ def run_at(contour: TypedContour, index: int, own_draft: Draft) -> DraftedRun | 
         return None
     if _tied(contour, index) and own_draft.before.heading is None:
         # the segment to which it is tied must be determined first
-        return (drafted(segment, contour.readings[index], own_draft.before, SegmentResult(), contour.unit),), None
+        return (
+            draft_of_result(segment, contour.readings[index], own_draft.before, SegmentResult(), contour.unit),
+        ), None
     attempt = _solved(contour, index, own_draft.before, 1 if tied else 2)
     if chosen_by_next and not tied and (attempt is None or not _decides(attempt, own_draft)):
         return None
@@ -93,7 +104,7 @@ def _decides(attempt: _Attempt, own_draft: Draft) -> bool:
     return 0 < len(left) < len(own_draft.result.choices)
 
 
-# which segments
+# which segments make a run
 
 
 @dataclass(frozen=True, slots=True)
@@ -141,7 +152,7 @@ def tangent_fault(contour: TypedContour, index: int) -> Finding | None:
     return Finding("TANGENT_PLACE", Severity.ERROR, text, field="tangent")
 
 
-def _longer_and_longer(contour: TypedContour, first: int) -> Iterator[tuple[int, ...]]:
+def _candidate_runs(contour: TypedContour, first: int) -> Iterator[tuple[int, ...]]:
     """Yield the indices of runs of one, two ... LINEs and ARCs from `first` on, up to the first that ends.
 
     The longest has as many elements as are solved together.
@@ -151,10 +162,10 @@ def _longer_and_longer(contour: TypedContour, first: int) -> Iterator[tuple[int,
     while at is not None and len(indices) < MAX_RUN_LENGTH:
         indices = (*indices, at)
         yield indices
-        at = None if _ends(contour, indices) else _next(contour, at)
+        at = None if _ends_run(contour, indices) else _next(contour, at)
 
 
-def _ends(contour: TypedContour, indices: Sequence[int]) -> bool:
+def _ends_run(contour: TypedContour, indices: Sequence[int]) -> bool:
     """True if a run ends at a typed point and no later segment refers to it."""
     known, after = contour.readings[indices[-1]].known, _next(contour, indices[-1])
     if not ("x_end" in known and "y_end" in known):
@@ -171,7 +182,7 @@ def _solved(contour: TypedContour, first: int, before: Carried, least: int) -> _
 
     It has at least `least` elements: a segment that is tied to no other has its own rules.
     """
-    for indices in _longer_and_longer(contour, first):
+    for indices in _candidate_runs(contour, first):
         attempt = _attempt(contour, indices, before) if len(indices) >= least else None
         if attempt is not None and attempt.search.stuck is None:
             return _narrowed(contour, attempt, before)
@@ -180,7 +191,7 @@ def _solved(contour: TypedContour, first: int, before: Carried, least: int) -> _
 
 def _attempt(contour: TypedContour, indices: Sequence[int], before: Carried) -> _Attempt | None:
     """Solve a run; return None if too few data are typed."""
-    if not contour.readings[indices[-1]].known.keys() & ENDING:
+    if not contour.readings[indices[-1]].known.keys() & END_DATA:
         return None
     run = _run(contour, indices, before)
     return _Attempt(tuple(indices), run, search(run)) if run.enough else None
@@ -210,12 +221,12 @@ def _rounded(pieces: Sequence[Piece]) -> tuple[float, ...]:
 
 def _unsolved(contour: TypedContour, first: int, before: Carried) -> _Attempt:
     """Return the run whose missing data are reported: up to the first typed end, else up to the longest."""
-    *_, indices = _longer_and_longer(contour, first)
+    *_, indices = _candidate_runs(contour, first)
     run = _run(contour, indices, before)
     return _Attempt(indices, run, search(run))
 
 
-# what is typed
+# the data of a run
 
 
 def _run(contour: TypedContour, indices: Sequence[int], before: Carried) -> Run:
@@ -235,7 +246,7 @@ def _element(contour: TypedContour, index: int, start: Point | None, indices: Se
         del data[name]
     kept = axis_kept_from(start, segment, contour.readings[index])
     if kept is not None:
-        data.setdefault(KEPT[kept], 0.0)
+        data.setdefault(KEPT_COORDINATE[kept], 0.0)
     link = 0.0 if _tied(contour, index) else None
     link = known.get("angle_inc", known.get("start_angle_inc", link))
     turn = TURNS[segment.direction] if isinstance(segment, ArcSegment) else Turn.NONE
@@ -246,10 +257,12 @@ def _implied_by_angle(data: dict[str, float], start: Point) -> list[str]:
     """Name the typed end coordinates of a line from a known start that its typed XY ANGLE already implies."""
     if "angle" not in data:
         return []
-    direction = (cos(data["angle"]), sin(data["angle"]))
-    ends = (("x_end", 0, start[0]), ("y_end", 1, start[1]), ("x_end_inc", 0, 0.0), ("y_end_inc", 1, 0.0))
-    held = [end for end in ends if abs(direction[end[1]]) <= SQUARE]
-    return [name for name, _, value in held if name in data and abs(data[name] - value) <= JOINED]
+    implied: dict[str, float] = {}
+    if abs(cos(data["angle"])) <= MAX_SQUARE_COSINE:
+        implied |= {"x_end": start[0], "x_end_inc": 0.0}
+    if abs(sin(data["angle"])) <= MAX_SQUARE_COSINE:
+        implied |= {"y_end": start[1], "y_end_inc": 0.0}
+    return [name for name, value in implied.items() if name in data and abs(data[name] - value) <= JOINED]
 
 
 _NO_SHAPE = ("z_end", "feed", "pick_x", "pick_y", "parallel", "angle_inc", "start_angle_inc")
@@ -276,13 +289,13 @@ def parallel_fault(contour: TypedContour, index: int) -> Finding | None:
     if at >= index:
         text = f"PARALLEL TO {target:.0f} is not before segment {number}: enter the number of an earlier LINE."
     elif not isinstance(contour.segments[at], LineSegment):
-        text = f"PARALLEL TO {target:.0f}: segment {target:.0f} is no LINE. Enter the number of an earlier LINE."
+        text = f"PARALLEL TO {target:.0f}: segment {target:.0f} is not a LINE. Enter the number of an earlier LINE."
     else:
         return None
     return Finding("PARALLEL_TO", Severity.ERROR, text, field="parallel")
 
 
-def place_faults(contour: TypedContour, index: int) -> tuple[Finding, ...]:
+def reference_faults(contour: TypedContour, index: int) -> tuple[Finding, ...]:
     """Return the faults in a segment's references to other segments."""
     faults = (tangent_fault(contour, index), parallel_fault(contour, index), _relative_fault(contour, index))
     return tuple(fault for fault in faults if fault is not None)
@@ -297,7 +310,7 @@ def _relative_fault(contour: TypedContour, index: int) -> Finding | None:
     return None
 
 
-# what comes out
+# the drafts of a run
 
 
 def _result(contour: TypedContour, attempt: _Attempt, own_draft: Draft) -> DraftedRun:
@@ -345,7 +358,7 @@ def _taken(
     if picked is not None and answers:
         return picked.taken, None if picked.taken is not None else reasons.pick_nearer(run, len(answers))
     if result.stuck is not None:
-        return None, _why_stuck(contour, run, result.stuck, tried=picked is not None)
+        return None, _why_stuck(contour, run, result.stuck, pick_tried=picked is not None)
     if not answers:
         return None, with_fitting_number(run, result.findings[0])
     choice = getattr(contour.segments[attempt.indices[0]], "choice", None)
@@ -357,13 +370,13 @@ def _taken(
     return None, reasons.pick_solution(run, len(answers), picked=choice is not None)
 
 
-def _why_stuck(contour: TypedContour, run: Run, stuck: Branch, *, tried: bool) -> Finding:
+def _why_stuck(contour: TypedContour, run: Run, stuck: Branch, *, pick_tried: bool) -> Finding:
     if run.missing > 0:
         return reasons.missing(stuck, run.missing, _may_be_tangent(contour, stuck))
     for index in range(1, len(run.elements)):
         if stuck.joint(index) is None and _on_same_curve(stuck, index):
             return reasons.coincident(run, index)
-    return reasons.not_yet(run, tried=tried)
+    return reasons.unsolvable(run, tried=pick_tried)
 
 
 def _may_be_tangent(contour: TypedContour, stuck: Branch) -> int | None:
@@ -373,9 +386,9 @@ def _may_be_tangent(contour: TypedContour, stuck: Branch) -> int | None:
     """
     heading = stuck.run.heading
     for index, element in enumerate(stuck.run.elements):
-        settled = heading is not None and stuck.heading_in[index] is not None
+        both_known = heading is not None and stuck.heading_in[index] is not None
         behind_corner = element.number > 1 and isinstance(contour.segments[element.number - 2], CornerSegment)
-        if element.number > 1 and element.link is None and not settled and not behind_corner:
+        if element.number > 1 and element.link is None and not both_known and not behind_corner:
             return element.number
         heading = stuck.heading_out[index]
     return None
@@ -398,7 +411,9 @@ def _determined(contour: TypedContour, pieces: dict[int, Piece], before: Carried
         segment, reading = contour.segments[number - 1], contour.readings[number - 1]
         kept = axis_kept_from(start, segment, reading)
         if kept is not None:
-            reading.fill(KEPT[kept].removesuffix("_inc"), from_mm(piece.end[kept], contour.unit), Origin.SAME)
+            reading.fill(
+                KEPT_COORDINATE[kept].removesuffix("_inc"), from_mm(piece.end[kept], contour.unit), Origin.SAME
+            )
         calculate(reading, piece, contour.unit)
         start = None
     return {number - 1: SegmentResult(piece, piece.end) for number, piece in pieces.items()}
@@ -429,9 +444,9 @@ def _drafts(
         segment, reading = contour.segments[index], contour.readings[index]
         result = results.get(index)
         if result is None:
-            drafts.append(draft(segment, reading, before, contour.unit))
+            drafts.append(solve_segment(segment, reading, before, contour.unit))
         else:
-            drafts.append(drafted(segment, reading, before, result, contour.unit))
+            drafts.append(draft_of_result(segment, reading, before, result, contour.unit))
         before = drafts[-1].after
         if result is not None and result.piece is None and index != attempt.indices[-1]:
             joint = attempt.search.known.joint(attempt.indices.index(index) + 1)
@@ -461,7 +476,7 @@ def _sketch(run: Run, known: Branch, index: int) -> Piece | None:
     if center is not None and rho is not None:
         at = (center[0] + abs(rho), center[1])
         return Arc(at, at, center, run.elements[index].turn)
-    size = known.length[index] or SKETCHED * run.size
+    size = known.length[index] or SKETCH_SHARE * run.size
     leaving, arriving = known.heading_in[index], known.heading_out[index]
     if size <= JOINED:
         return None

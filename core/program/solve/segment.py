@@ -23,12 +23,12 @@ from core.program.model import (
 )
 from core.program.solve.reading import Reading, heading_at, measured_fields
 from core.program.solve.rules import (
-    ARC_TASK,
-    LINE_TASK,
-    Given,
+    ARC_KIND,
+    LINE_KIND,
     Known,
     Outcome,
-    Task,
+    SegmentData,
+    SegmentKind,
     adjustment,
     circle_finding,
     is_start,
@@ -87,13 +87,13 @@ def typed_point(values: dict[str, Value], names: tuple[str, str]) -> tuple[float
     return x.value if isinstance(x, Number) else None, y.value if isinstance(y, Number) else None
 
 
-def draft(segment: Segment, reading: Reading, before: Carried, unit: Unit) -> Draft:
+def solve_segment(segment: Segment, reading: Reading, before: Carried, unit: Unit) -> Draft:
     """Solve a segment, which starts at the end of the one before it, from its own fields."""
     _keep_coordinate(segment, reading, before, unit)
-    return drafted(segment, reading, before, _result(segment, reading, before, unit), unit)
+    return draft_of_result(segment, reading, before, _result(segment, reading, before, unit), unit)
 
 
-def drafted(segment: Segment, reading: Reading, before: Carried, result: SegmentResult, unit: Unit) -> Draft:
+def draft_of_result(segment: Segment, reading: Reading, before: Carried, result: SegmentResult, unit: Unit) -> Draft:
     """Return the draft of a segment with this result; blank Z and feed are taken over from the segment before."""
     known = reading.known
     origin = Origin.CALCULATED if "feed" in known else before.feed_origin
@@ -113,9 +113,9 @@ def drafted(segment: Segment, reading: Reading, before: Carried, result: Segment
     return Draft(reading, result, before, Carried(result.end or typed_end, typed, z, feed, heading, origin))
 
 
-def own_data(task: Task, reading: Reading, start: Point) -> dict[str, float]:
+def shape_data(kind: SegmentKind, reading: Reading, start: Point) -> dict[str, float]:
     """Return a segment's typed shape data, with coordinates relative to its known start made absolute."""
-    known = {name: value for name, value in reading.known.items() if name in task.shape}
+    known = {name: value for name, value in reading.known.items() if name in kind.shape}
     for name, axis in (("x_end", 0), ("y_end", 1), ("x_center", 0), ("y_center", 1)):
         if name + "_inc" in reading.known:
             known[name] = start[axis] + reading.known[name + "_inc"]
@@ -157,12 +157,14 @@ def _result(segment: Segment, reading: Reading, before: Carried, unit: Unit) -> 
         case _ if before.point is None:
             return SegmentResult()
         case LineSegment():
-            given = Given(before.point, own_data(LINE_TASK, reading, before.point))
-            return _solved(LINE_TASK, reading, given, segment.choice, unit)
+            data = SegmentData(before.point, shape_data(LINE_KIND, reading, before.point))
+            return _solved(LINE_KIND, reading, data, segment.choice, unit)
         case ArcSegment():
             back = _ends_at_start(reading, before.point, before.typed, unit)
-            given = Given(before.point, own_data(ARC_TASK, reading, before.point), back, TURNS[segment.direction])
-            return _solved(ARC_TASK, reading, given, segment.choice, unit)
+            data = SegmentData(
+                before.point, shape_data(ARC_KIND, reading, before.point), back, TURNS[segment.direction]
+            )
+            return _solved(ARC_KIND, reading, data, segment.choice, unit)
         case _:
             assert_never(segment)
 
@@ -184,29 +186,29 @@ def _corner(segment: CornerSegment, reading: Reading, corner: Point | None) -> S
     return SegmentResult(end=corner, missing=(size.name,), findings=(missing,))
 
 
-def _solved(task: Task, reading: Reading, given: Given, choice: int | None, unit: Unit) -> SegmentResult:
+def _solved(kind: SegmentKind, reading: Reading, data: SegmentData, choice: int | None, unit: Unit) -> SegmentResult:
     """Solve a line or an arc: return its only solution, the picked one, or none with the reason."""
-    outcome = solve(task, given)
+    outcome = solve(kind, data)
     pieces = outcome.pieces
     if len(pieces) > 1 and (choice is None or choice >= len(pieces)):
         pick = Finding("PICK_SOLUTION", Severity.ERROR, "Two solutions fit: pick one on SOLUTION.", field="choice")
         return SegmentResult(choices=pieces, sketch=pieces[0], findings=(pick,))
     if not pieces:
-        return _unsolved(task, outcome, reading, given.start)
+        return _unsolved(kind, outcome, reading, data.start)
     piece = pieces[choice or 0] if len(pieces) > 1 else pieces[0]
     if _too_far(piece):
         text = "This segment's end or center is beyond any machine's travel. Check its numbers."
-        return SegmentResult(findings=(Finding("OUT_OF_RANGE", Severity.ERROR, text, field=task.shape[0]),))
+        return SegmentResult(findings=(Finding("OUT_OF_RANGE", Severity.ERROR, text, field=kind.shape[0]),))
     calculate(reading, piece, unit)
     if piece.length <= JOINED:
         text = "No length: skipped. Type its end, or F1 deletes it."
-        return SegmentResult(end=given.start, findings=(Finding("ZERO_LENGTH", Severity.WARNING, text),))
+        return SegmentResult(end=data.start, findings=(Finding("ZERO_LENGTH", Severity.WARNING, text),))
     choices = pieces if len(pieces) > 1 else ()
     if isinstance(piece, Line):
         return SegmentResult(piece, piece.end, choices=choices)
-    finding = circle_finding(piece, given)
+    finding = circle_finding(piece, data)
     findings = () if finding is None else (finding,)
-    return SegmentResult(piece, piece.end, choices=choices, findings=findings, adjustment=adjustment(piece, given))
+    return SegmentResult(piece, piece.end, choices=choices, findings=findings, adjustment=adjustment(piece, data))
 
 
 def _too_far(piece: Piece) -> bool:
@@ -217,11 +219,11 @@ def _too_far(piece: Piece) -> bool:
     return isinstance(piece, Arc) and max(map(abs, piece.center)) > LARGEST_COORDINATE
 
 
-def _unsolved(task: Task, outcome: Outcome, reading: Reading, start: Point) -> SegmentResult:
+def _unsolved(kind: SegmentKind, outcome: Outcome, reading: Reading, start: Point) -> SegmentResult:
     """Return the result if nothing fits; missing data are not reported while a typed shape field has a fault."""
-    faulty = any(finding.field in task.shape for finding in reading.findings)
+    faulty = any(finding.field in kind.shape for finding in reading.findings)
     findings = () if outcome.finding is None or (faulty and outcome.missing) else (outcome.finding,)
-    sketch = _sketch(start, own_data(task, reading, start))
+    sketch = _sketch(start, shape_data(kind, reading, start))
     return SegmentResult(missing=outcome.missing, sketch=sketch, findings=findings)
 
 

@@ -135,12 +135,12 @@ class SolvedBlock:
         return next((run for run in self.runs if run.first <= number <= run.last), None)
 
     @property
-    def every_finding(self) -> tuple[Finding, ...]:
+    def all_findings(self) -> tuple[Finding, ...]:
         """The findings of START and of all segments."""
         return (*self.findings, *(finding for segment in self.segments for finding in segment.findings))
 
     @property
-    def whole(self) -> bool:
+    def fully_determined(self) -> bool:
         """True if every segment is determined, so that the whole surface is known."""
         return self.determined == len(self.segments)
 

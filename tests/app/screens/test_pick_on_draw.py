@@ -91,7 +91,7 @@ async def test_a_pick_between_two_solutions_asks_for_a_nearer_pick_or_solution(u
         await user.press("space")
         ends.append(user.value("x_end"))
     assert len(set(ends)) == 2
-    assert user.session.derived_block.solved.whole
+    assert user.session.derived_block.solved.fully_determined
 
 
 async def test_a_run_that_needs_no_pick_offers_none(user: Operator):

@@ -24,7 +24,7 @@ def test_the_table_has_a_row_for_every_value_with_its_path_and_verdict():
     assert table.recommended == 3
     for value in (1, 2, 3, 20):
         row = table.row(value)
-        verdict = judge(NOTCH, Side.LEFT, 0.25, row.compensated.whole)
+        verdict = judge(NOTCH, Side.LEFT, 0.25, row.compensated.with_leads)
         assert (row.gouge, row.uncut) == (verdict.depth, verdict.uncut_length)
         assert row.value == row.compensated.lookahead == value
     assert table.row(3).deleted == (2.0, 3.0, 4.0)

@@ -186,7 +186,7 @@ def test_moves_are_named_by_their_part_of_the_path() -> None:
     hook = lines((1, 0), (2, 0), (2, 1), (0.9, 1), (0.9, 0.3), (0, 0.3), (0, 0), (1, 0))
     paths = work(hook, closed=True, blend=0.1, overlap=0.5)
     (loop,) = paths.loops
-    name, count = move_names(paths), len(loop.whole)
+    name, count = move_names(paths), len(loop.with_leads)
     assert "blend-in arc" in name(0, 1.0)
     assert name(1, 1.0).endswith("the path of segment 1")
     assert name(len(loop.lead_in) + len(loop.path) - 1, 7.0).endswith("the path of segment 7")

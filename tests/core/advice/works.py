@@ -26,7 +26,7 @@ def work(
     def cut(size: float) -> tuple[RoughPass, tuple[CenterPath, ...]]:
         control = compensate(contour, side, size, lookahead, closed=closed, blend=blend, overlap=overlap)
         loops = (CenterPath(control.path, control.lead_in, control.lead_out),) if len(control.path) else ()
-        verdict = judge(contour, side, size, [loop.whole for loop in loops])
+        verdict = judge(contour, side, size, [loop.with_leads for loop in loops])
         return RoughPass(size - radius, loops, control, verdict), loops
 
     finish, loops = cut(radius)

@@ -102,8 +102,8 @@ def test_open_contour_has_no_overlap():
 
 def test_whole_is_blend_in_path_and_blend_out():
     done = compensate(MID_SIDE, Side.LEFT, 0.25, 4, closed=True, blend=0.1, overlap=0.5)
-    assert done.whole.numbers.tolist() == [1, 1, 2, 3, 4, 5, 1, 1]
-    assert (abs(done.whole.ends[:-1] - done.whole.starts[1:]) == 0).all()
+    assert done.with_leads.numbers.tolist() == [1, 1, 2, 3, 4, 5, 1, 1]
+    assert (abs(done.with_leads.ends[:-1] - done.with_leads.starts[1:]) == 0).all()
 
 
 @pytest.mark.parametrize("gap", [1e-6, 1e-4, 0.0025])

@@ -64,7 +64,7 @@ def test_every_piece_is_the_radius_away_from_its_segment(contour, side, radius, 
 def test_the_path_is_finite_and_in_order(contour, side, radius, lookahead, closed):
     contour = shut(contour) if closed else contour
     done = compensate(contour, side, radius, lookahead, closed=closed, blend=0.1, overlap=0.1)
-    path, whole = done.path, done.whole
+    path, whole = done.path, done.with_leads
     assert np.isfinite(whole.points).all()
     assert len(path.points) == len(path) + 1 or not len(path)
     assert len(done.bridged) == len(path)
@@ -83,7 +83,7 @@ def test_lookaheads_calculated_together_equal_those_calculated_singly(contour, s
     for done in compensate_all(contour, side, radius, (7, 1, 2, 20), closed=closed, blend=0.1):
         alone = compensate(contour, side, radius, done.lookahead, closed=closed, blend=0.1)
         assert np.array_equal(done.path.numbers, alone.path.numbers)
-        assert np.array_equal(done.whole.points, alone.whole.points)
+        assert np.array_equal(done.with_leads.points, alone.with_leads.points)
         assert list(done.deleted) == list(alone.deleted)
         assert done.findings == alone.findings
 
@@ -95,7 +95,7 @@ def test_lookaheads_that_test_the_same_crossings_make_the_same_path():
     assert [one.tested for one in every] == [0, 0] + [1] * 18
     for one in every:
         alone = compensate(notch, Side.LEFT, 0.25, one.lookahead, closed=False, blend=0.1)
-        assert np.array_equal(one.whole.points, alone.whole.points)
+        assert np.array_equal(one.with_leads.points, alone.with_leads.points)
         assert list(one.deleted) == list(alone.deleted)
 
 

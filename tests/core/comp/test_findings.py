@@ -29,7 +29,7 @@ def _only(compensated: Compensated) -> Finding:
 def _refused(compensated: Compensated, code: str) -> Finding:
     finding = _only(compensated)
     assert (finding.code, finding.severity) == (code, Severity.ERROR)
-    assert len(compensated.path) == len(compensated.raw) == len(compensated.deleted) == len(compensated.whole) == 0
+    assert len(compensated.path) == len(compensated.raw) == len(compensated.deleted) == len(compensated.with_leads) == 0
     return finding
 
 
@@ -114,7 +114,7 @@ def test_arcs_about_one_of_their_own_ends_are_skipped(turn, far):
             done = compensate(Path.from_pieces(pieces), Side.RIGHT, 1.0, 3, closed=closed, blend=1.0)
             assert [finding.code for finding in done.findings] == ["ZERO_LENGTH"]
             assert len(done.path)
-            assert np.isfinite(done.whole.points).all()
+            assert np.isfinite(done.with_leads.points).all()
 
 
 def test_a_contour_of_points_only_is_empty():
@@ -166,7 +166,7 @@ def test_an_inside_arc_exactly_as_large_as_the_tool_becomes_a_corner(lookahead):
 def test_a_hole_too_small_for_the_tool_is_an_error(radius):
     contour = Path.from_pieces([Arc((2, 0), (2, 0), (0, 0), Turn.CCW)])
     done = compensate(contour, Side.LEFT, radius, 3, closed=True, blend=0.1, overlap=0.1)
-    assert len(done.whole) == 0
+    assert len(done.with_leads) == 0
     assert Severity.ERROR in {finding.severity for finding in done.findings}
     assert len(compensate(contour, Side.RIGHT, radius, 3, closed=True).path) == 1
 
@@ -251,7 +251,7 @@ def test_odd_contours_never_fail(radius):
     for points in odd:
         for side in Side:
             for done in compensate_all(lines(*points), side, radius, range(1, 21), closed=points[0] == points[-1]):
-                assert np.isfinite(done.whole.points).all()
+                assert np.isfinite(done.with_leads.points).all()
                 assert len(done.path) or any(one.severity is Severity.ERROR for one in done.findings)
                 assert all(piece.length > 0 for piece in done.path)
                 assert all(one.start == two.end for two, one in pairwise(done.path))

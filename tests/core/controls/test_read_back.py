@@ -68,7 +68,7 @@ def test_a_square_reads_back_or_is_refused_for_its_corners(control: str, side: S
     path = run.moves.part(stretch.first, stretch.last).path()
     path_in_contour = path if control == "klartext" else path.part(1, len(path) - 1)
     mitred = side is Side.RIGHT and control.startswith(("nine-series", "fanuc", "haas")) and "yasnac" not in control
-    whole = square.compensated.whole
+    whole = square.compensated.with_leads
     apart = max(largest_distance(path_in_contour, whole)[0], largest_distance(whole, path_in_contour)[0])
     assert (apart > 1e-3) is mitred
     assert same_pieces(path_in_contour, whole, 1e-3) is not (mitred or (control == "threeblock" and overlap > 0.0))
@@ -189,15 +189,15 @@ def test_an_invalid_distance_in_one_direction_is_not_near(lost: str) -> None:
     given = replace(intended_program(), leads=False)
     (square,) = given.cuts
     assert isinstance(square, CompensatedPass)
-    whole = square.compensated.whole
+    whole = square.compensated.with_leads
     made, cut_for = whole, square
     if lost == "made":
         made = _with_lost_arc(whole)
     else:
         bare = replace(square.compensated, path=whole, lead_in=EMPTY, lead_out=EMPTY)
-        made, cut_for = bare.whole, replace(square, compensated=replace(bare, path=_with_lost_arc(whole)))
+        made, cut_for = bare.with_leads, replace(square, compensated=replace(bare, path=_with_lost_arc(whole)))
         assert compare_path(made, replace(square, compensated=bare), given) is None
-    intended = cut_for.compensated.whole
+    intended = cut_for.compensated.with_leads
     apart = [largest_distance(made, intended)[0], largest_distance(intended, made)[0]]
     assert sorted(distance <= 1e-3 for distance in apart) == [False, True]
     assert errors_of(compare_path(made, cut_for, given))
@@ -252,4 +252,7 @@ def test_random_contours_read_back_or_are_refused_with_a_reason(
     path = run.moves.part(stretch.first, stretch.last).path()
     inner = path.part(1, len(path) - 1)
     allowed = max(0.006, *(note.lengths[0] + 0.006 for note in result.notes if note.code == "DIFFERS"), 0.0)
-    assert max(largest_distance(inner, compensated.whole)[0], largest_distance(compensated.whole, inner)[0]) <= allowed
+    assert (
+        max(largest_distance(inner, compensated.with_leads)[0], largest_distance(compensated.with_leads, inner)[0])
+        <= allowed
+    )

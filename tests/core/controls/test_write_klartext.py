@@ -64,7 +64,7 @@ def path_on_control(text: str, stretch: int = 0) -> Path:
 
 def same_pieces(text: str, compensated: Compensated) -> bool:
     """Piece by piece the same path, but for entries of no length that rounding makes."""
-    path, whole = path_on_control(text), compensated.whole
+    path, whole = path_on_control(text), compensated.with_leads
     kept = path.lengths > MIN_TOLERANCE
     assert path.turns[kept].tolist() == whole.turns.tolist()
     return float(np.abs(path.ends[kept] - whole.ends).max()) < MIN_TOLERANCE
@@ -162,7 +162,7 @@ def test_inches_read_back() -> None:
     made = run_klartext(text.encode(), ToolTable())
     (stretch,) = made.stretches
     path = made.moves.part(stretch.first, stretch.last).path()
-    assert float(np.abs(path.points - compensated.whole.points).max()) < MIN_TOLERANCE
+    assert float(np.abs(path.points - compensated.with_leads.points).max()) < MIN_TOLERANCE
 
 
 def test_deleted_segments_are_left_out_where_their_neighbors_meet() -> None:
@@ -206,7 +206,7 @@ def test_what_is_written_is_what_is_run(legs: list[tuple[float, float]], side: S
     compensated = compensate(outline(*points), side, 4.0, 3, closed=False, blend=2.0)
     text = write(compensated)
     if isinstance(text, str):
-        path, whole = path_on_control(text), compensated.whole
+        path, whole = path_on_control(text), compensated.with_leads
         assert float(np.hypot(*(path.points[0] - whole.points[0]))) < MIN_TOLERANCE
         assert float(path.lengths.sum()) == pytest.approx(float(whole.lengths.sum()), abs=0.01)
     else:

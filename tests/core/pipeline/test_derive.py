@@ -294,7 +294,7 @@ def test_a_path_that_leaves_the_part_and_turns_back_is_reported():
     corners = (start, (0.3 * IN, radius), (0.35 * IN, 2 * radius), (0.4 * IN, radius), (0.2 * IN, radius), end)
     path = Path.of(np.array(corners), np.array(corners[:-1]), np.zeros(5, np.int8), np.ones(5))
     loop = CenterPath(path, blend_in(path, Side.LEFT, 1.0), blend_out(path, Side.LEFT, 1.0, 0.0, closed=False))
-    verdict = judge(work.surface, Side.LEFT, radius, [loop.whole])
+    verdict = judge(work.surface, Side.LEFT, radius, [loop.with_leads])
     findings = path_findings(replace(work, loops=(loop,), verdict=verdict))
     against, away = (finding for finding in findings if finding.code in ("AWAY", "BACKWARDS"))
     assert against.text == "1 move runs against the direction of the contour."

@@ -177,5 +177,5 @@ programs: st.SearchStrategy[Program] = st.sampled_from(Unit).flatmap(_programs)
 
 def postable(block: SolvedBlock) -> bool:
     """True if there is a surface, every segment is determined and no finding is an error."""
-    sound = all(finding.severity is not Severity.ERROR for finding in block.every_finding)
-    return block.whole and bool(block.pieces) and sound
+    sound = all(finding.severity is not Severity.ERROR for finding in block.all_findings)
+    return block.fully_determined and bool(block.pieces) and sound

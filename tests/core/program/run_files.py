@@ -108,7 +108,7 @@ def every_chain(case: Case, picks: Mapping[int, tuple[float, float]] | None = No
     while waiting:
         part, choices = waiting.pop()
         block = solved(part, choices)
-        if block.whole:
+        if block.fully_determined:
             chains.append([plain_segment(segment) for segment in document(part, choices)["segments"]])
             continue
         number, options = _open(block)

@@ -215,7 +215,7 @@ BAD = [
      case_of(line(angle=0), ccw(x_center=50, y_center=20, radius=20, x_end=50, y_end=41))),
     ("RADII_DIFFER", "The arc's radius is 40.000 at its start and 41.000 at its end: correct the end or the center.",
      case_of(line(x_end=40, y_end=0), ccw(x_center=0, y_center=0, radius=40, x_end=0, y_end=41))),
-    ("PARALLEL_TO", "PARALLEL TO 2: segment 2 is no LINE. Enter the number of an earlier LINE.",
+    ("PARALLEL_TO", "PARALLEL TO 2: segment 2 is not a LINE. Enter the number of an earlier LINE.",
      case_of(line(x_end=5, y_end=5), ccw(radius=5, x_end=9, y_end=9), line(parallel=2, x_end=20, y_end=0))),
     ("CONTRADICTION", "XY ANGLE comes to 53.130, but 45.000 by PARALLEL TO: correct the end, or blank PARALLEL TO.",
      case_of(line(x_end=50, y_end=50), line(parallel=1, x_end=80, y_end=90))),
@@ -348,13 +348,13 @@ def test_a_tangent_next_segment_selects_the_solution() -> None:
     decided = case_of(line(angle=30), line(length=40, x_end=70, y_end=10), line(tangent=True, angle=heading, length=10))
     block = solved(decided)
     assert block.runs[0].taken == 0
-    assert block.whole
+    assert block.fully_determined
 
 
 def test_a_tangent_line_after_an_arc_selects_one_of_two_centers() -> None:
     exact = case_of(ccw(x_end=10, y_end=10, radius=10), line(tangent=True, x_end=10, y_end=30))
     block = solved(exact)
-    assert block.whole
+    assert block.fully_determined
     assert block.segments[0].piece is not None
     assert getattr(block.segments[0].piece, "center", None) == pytest.approx((0.0, 10.0))
 
@@ -362,7 +362,7 @@ def test_a_tangent_line_after_an_arc_selects_one_of_two_centers() -> None:
 def test_a_tangent_line_after_an_arc_may_miss_it_by_rounding_only() -> None:
     """The two centers lie sqrt(radius^2 - 10^2) above and below the chord, where an exact half circle has its one."""
     rounded = solved(case_of(ccw(x_end=20, y_end=0, radius=10.0001), line(tangent=True, x_end=20, y_end=30)))
-    assert rounded.whole
+    assert rounded.fully_determined
     assert codes(rounded) == []
     assert getattr(rounded.segments[0].piece, "center", None) == pytest.approx((10.0, 0.0), abs=0.05)
     larger = solved(case_of(ccw(x_end=20, y_end=0, radius=10.1), line(tangent=True, x_end=20, y_end=30)))
@@ -475,12 +475,12 @@ def test_ends_of_a_line_that_differ_from_its_tangent_arc_by_rounding_are_taken()
     top = line(tangent=True, angle=0.0, y_end=11.92)
     last = cw(tangent=True, x_center=44.236, y_center=9.756, radius=2.163, y_end=7.593)
     block = solved(case_of(line(angle=30.0), cw(tangent=True, radius=5.0, y_end=11.92), top, last))
-    assert block.whole
+    assert block.fully_determined
 
 
 def test_a_full_circle_may_be_tangent() -> None:
     block = solved(case_of(line(x_end=50, y_end=0), ccw(tangent=True, x_end=50, y_end=0, x_center=50, y_center=10)))
-    assert block.whole
+    assert block.fully_determined
     assert block.segments[1].piece is not None
     assert block.segments[1].piece.length == pytest.approx(radians(360) * 10)
 
@@ -629,7 +629,7 @@ def test_taking_the_answer_that_a_far_pick_left_moves_the_pick_to_its_joint() ->
     first = taken.blocks[0].segments[0]
     assert isinstance(first, LineSegment)
     assert (first.pick_x.value, first.pick_y.value) == pytest.approx((40.0, 0.0))
-    assert solve_block(taken.blocks[0], taken).whole
+    assert solve_block(taken.blocks[0], taken).fully_determined
     assert isinstance(take_solution(program, FormPlace(2, 1), 0), Refused)
 
 

@@ -30,7 +30,7 @@ def test_the_tested_examples_are_all_examples():
 def test_every_example_is_determined(name):
     _, blocks = example(name)
     for block in blocks:
-        assert block.every_finding == ()
+        assert block.all_findings == ()
         assert postable(block)
 
 

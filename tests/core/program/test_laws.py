@@ -189,7 +189,7 @@ def test_typing_calculated_values_changes_nothing(part):
                     edit.type_field(typed, FormPlace(1, segment.number), name, Number(solved_value.value))
                 )
     after = solved(typed)
-    assert after.every_finding == ()
+    assert after.all_findings == ()
     assert same(before, after)
     assert not any(
         isinstance(solved_value, Solved) for segment in after.segments for solved_value in segment.values.values()

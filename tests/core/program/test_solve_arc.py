@@ -156,7 +156,7 @@ def test_fitted_arcs_are_reported_once_at_the_largest_difference():
     ends = [(0.0, 5.0001), (-5.0, 0.02), (0.0, -5.0)]
     arcs = [arc("CCW", x_end=x, y_end=y, x_center=0.0, y_center=0.0) for x, y in ends]
     part = program(*arcs, x=5.0)
-    findings = solve_block(part.blocks[0], part).every_finding
+    findings = solve_block(part.blocks[0], part).all_findings
     assert [(finding.code, finding.segment) for finding in findings] == [("ARC_ADJUSTED", 1)]
     assert sentence(findings[0], Unit.MM) == (
         "Radius 5.0000 at start, 5.0001 at end: the arc is fitted to both. 2 more arcs differ by less."
@@ -587,7 +587,7 @@ def test_an_end_exactly_at_the_start_makes_a_full_circle(unit):
     block = solve_block(given_program.blocks[0], given_program)
     assert is_full(block.segments[0])
     assert block.closed
-    assert block.every_finding == ()
+    assert block.all_findings == ()
 
 
 def test_a_sweep_that_shows_360_but_leaves_a_gap_is_no_full_circle():

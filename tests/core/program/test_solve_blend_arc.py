@@ -22,7 +22,7 @@ def solved(*segments: Segment) -> SolvedBlock:
 def texts(block: SolvedBlock) -> list[str]:
     return [
         f"{finding.code} {finding.segment} {finding.field}: {sentence(finding, Unit.MM)}"
-        for finding in block.every_finding
+        for finding in block.all_findings
     ]
 
 
@@ -102,11 +102,11 @@ def test_a_blend_too_large_for_an_arc_is_refused():
 
 def test_a_blend_waits_for_its_neighbors():
     block = solved(RIGHT, blend(1.0), LineSegment(), UP)
-    assert [finding.segment for finding in block.every_finding] == [3]
+    assert [finding.segment for finding in block.all_findings] == [3]
     assert block.determined == 1
     assert block.segments[0].piece == Line((0.0, 0.0), (10.0, 0.0))
     after = solved(RIGHT, LineSegment(), blend(1.0), UP)
-    assert [finding.segment for finding in after.every_finding] == [2]
+    assert [finding.segment for finding in after.all_findings] == [2]
 
 
 def test_a_blend_beside_a_segment_without_length_is_refused():
@@ -142,9 +142,7 @@ def test_the_largest_size_that_fits_a_corner_fits_when_it_is_typed_and_one_digit
     while named < 60:
         after = bent(random, round(random.uniform(-5, 25), 3), round(random.uniform(-15, 15), 3))
         for corner in (blend, chamfer):
-            told = [
-                finding for finding in solved(RIGHT, corner(40.0), after).every_finding if "largest" in finding.text
-            ]
+            told = [finding for finding in solved(RIGHT, corner(40.0), after).all_findings if "largest" in finding.text]
             if not told:
                 continue
             named += 1

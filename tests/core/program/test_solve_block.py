@@ -42,7 +42,7 @@ def solved(given_program: Program) -> SolvedBlock:
 
 
 def codes(block: SolvedBlock) -> list[tuple[str, float | None]]:
-    return [(finding.code, finding.segment) for finding in block.every_finding]
+    return [(finding.code, finding.segment) for finding in block.all_findings]
 
 
 POCKET = program(
@@ -68,7 +68,7 @@ def test_a_pocket_is_solved_whole():
     assert postable(block)
     assert block.closed
     assert block.determined == 11
-    assert block.every_finding == ()
+    assert block.all_findings == ()
     assert [number_ for number_, _ in block.pieces] == list(range(1, 12))
     third, corner, fifth = block.segments[2:5]
     assert isinstance(corner.piece, Arc)
@@ -176,7 +176,7 @@ def test_a_segment_without_length_is_skipped():
 
 def test_unreadable_text_blocks_posting_and_is_reported_once():
     block = solved(program(LineSegment(x_end=Unread("1,5", "Type a point."), y_end=Number(0.0))))
-    (finding,) = block.every_finding
+    (finding,) = block.all_findings
     assert (finding.code, finding.segment, finding.field) == ("UNREADABLE", 1, "x_end")
     assert sentence(finding, Unit.IN) == "X END: 1,5 cannot be read. Type a point."
     assert block.segments[0].values["x_end"] == Unread("1,5", "Type a point.")
@@ -192,7 +192,7 @@ def test_unreadable_text_in_a_feed_leaves_the_shape_known():
 
 def test_a_number_out_of_its_range_is_not_used():
     block = solved(program(line(length=-1.0, angle=0.0)))
-    (finding,) = block.every_finding
+    (finding,) = block.all_findings
     assert (finding.code, finding.segment, finding.field) == ("OUT_OF_RANGE", 1, "length")
     assert finding.text == "XY LENGTH must be above 0, at most 254000."
     assert block.segments[0].piece is None
@@ -216,7 +216,7 @@ def test_any_program_is_solved_without_raising(given_program):
             for name, value in solved_segment.values.items():
                 entered = getattr(typed, name)
                 assert value == entered if entered is not None else not isinstance(value, Number | Unread)
-        for finding in solution.every_finding:
+        for finding in solution.all_findings:
             assert sentence(finding, given_program.unit).endswith((".", "?", "!"))
         for segment in solution.segments:
             assert all(finding.segment == segment.number for finding in segment.findings)
@@ -230,7 +230,7 @@ def test_an_empty_segment_is_reported_as_the_next_to_complete():
         block = solved(program(line(x_end=1.0, y_end=0.0), segment))
         assert block.determined == 1
         assert not postable(block)
-        assert next(finding.segment for finding in block.every_finding) == 2
+        assert next(finding.segment for finding in block.all_findings) == 2
 
 
 def test_a_contour_is_determined_although_its_tool_is_missing():
@@ -259,7 +259,7 @@ def test_a_segment_that_ends_out_of_range_is_refused():
 
 def test_control_characters_in_a_message_are_replaced():
     block = solved(program(LineSegment(x_end=Unread("\x1b[2J", "why."), y_end=Number(0.0))))
-    assert block.every_finding[0].text == "X END: ?[2J cannot be read. why."
+    assert block.all_findings[0].text == "X END: ?[2J cannot be read. why."
 
 
 ALONG = line(x_end=1.0, y_end=0.0)
@@ -460,7 +460,7 @@ def test_a_finish_tool_with_different_values_is_a_warning(values, labels):
     )
     given = replace(program(ALONG, start={"finish_tool": Number(2.0), "speed": None}), tools=tools)
     warnings = [
-        finding for finding in solve_block(given.blocks[0], given).every_finding if finding.code == "FINISH_VALUES"
+        finding for finding in solve_block(given.blocks[0], given).all_findings if finding.code == "FINISH_VALUES"
     ]
     assert [finding.severity for finding in warnings] == ([Severity.WARNING] if labels else [])
     assert all(f"TOOL SETUP has another {labels} for it." in finding.text for finding in warnings)

@@ -26,7 +26,7 @@ def solved(*segments: Segment) -> SolvedBlock:
 
 
 def texts(block: SolvedBlock) -> list[str]:
-    return [f"{one.code} {one.segment} {one.field}: {sentence(one, Unit.MM)}" for one in block.every_finding]
+    return [f"{one.code} {one.segment} {one.field}: {sentence(one, Unit.MM)}" for one in block.all_findings]
 
 
 def test_the_corner_of_two_lines_is_cut_off_by_the_same_length_on_both():
@@ -37,7 +37,7 @@ def test_the_corner_of_two_lines_is_cut_off_by_the_same_length_on_both():
         Line((8.0, 0.0), (10.0, 2.0)),
         Line((10.0, 2.0), (10.0, 10.0)),
     ]
-    assert (block.segments[1].end, block.whole, block.determined) == ((10.0, 0.0), True, 3)
+    assert (block.segments[1].end, block.fully_determined, block.determined) == ((10.0, 0.0), True, 3)
 
 
 def test_the_corner_of_an_arc_is_cut_off_where_its_tangent_has_that_length():

@@ -1,8 +1,8 @@
 """A run is what is typed of its elements; a branch of its solution holds what is known of each element and joint.
 
 A branch derives what needs no choice.  Joint k lies before element k; joint 0 is the run's start.  Each value is None
-until known, and never changes later.  If a value can be derived in two ways, `proof` checks at the end that they agree,
-by walking the chain.
+until known, and never changes later.  If a value can be derived in two ways, `answer_check` finds at the end, by
+walking the chain, whether they agree.
 
 An anchor is a known point A to which a joint P is tied rigidly: P = A + u t + v n, where t and n are the direction and
 left normal of the contour as it arrives at P (or departs from it).  A known joint is an anchor with u = v = 0; the
@@ -128,6 +128,15 @@ class Anchor(NamedTuple):
         """Return the same tie in a frame rotated by `angle`, counterclockwise positive."""
         c, s = cos(angle), sin(angle)
         return Anchor(self.at, self.along * c + self.left * s, self.left * c - self.along * s)
+
+
+class LineTie(NamedTuple):
+    """A point that a LINE passes at a known `distance`, positive if the point is on its left."""
+
+    point: Point
+    distance: float
+    end: str = ""
+    """`start` or `end` if the foot of the point is that end of the LINE, else empty."""
 
 
 class DeadEnd(Exception):
@@ -257,7 +266,7 @@ class Branch:
     def settle(self) -> None:
         """Derive every value that needs no choice, until no more can be derived.
 
-        Lines and circles come before lengths: if both give a joint, the length is the value that `proof` compares.
+        Lines and circles come before lengths: if both give a joint, `answer_check` compares the length with it.
         """
         while self.changed:
             while self.changed:
@@ -374,8 +383,8 @@ class Branch:
         Anchors carried along by lengths give a joint only if `carried`.
         """
         last = len(self.run.elements)
-        both = (self.heading_out[index - 1], 0.0 if index == last else self.heading_in[index])
-        if self.joint(index) is not None and None not in both:
+        headings_known = (self.heading_out[index - 1], 0.0 if index == last else self.heading_in[index])
+        if self.joint(index) is not None and None not in headings_known:
             return
         sides = [(self.heading_out, index - 1, self.anchors(index, ARRIVING))]
         if index < last:
@@ -384,11 +393,13 @@ class Branch:
             heading = headings[element]
             for anchor in anchors:
                 if anchor.tied > JOINED and (carried or anchor.along == 0.0 or heading is None):
-                    self._tied(index, anchor, headings, element, heading)
+                    self._derive_from_anchor(index, anchor, headings, element, heading)
         if self.joint(index) is None:
             self._between_lines(index)
 
-    def _tied(self, index: int, anchor: Anchor, headings: Numbers, element: int, heading: float | None) -> None:
+    def _derive_from_anchor(
+        self, index: int, anchor: Anchor, headings: Numbers, element: int, heading: float | None
+    ) -> None:
         joint, (x, y) = self.joint(index), anchor.at
         if joint is None and heading is not None:
             (tx, ty), (nx, ny) = direction(heading), normal(heading)
@@ -419,13 +430,13 @@ class Branch:
             center, rho = self.center(element), self.rho[element]
             if center is not None and rho is not None:
                 yield Anchor(center, 0.0, -rho)
-            if self._shape(element):
+            if self._shape_known(element):
                 yield from self._carried(element, sense)
         joint = self.joint(index)
         if joint is not None:
             yield Anchor(joint, 0.0, 0.0)
 
-    def _shape(self, element: int) -> bool:
+    def _shape_known(self, element: int) -> bool:
         """True if an element's shape is known: a LINE's length, an ARC's radius and sweep."""
         if self.run.elements[element].turn:
             return self.rho[element] is not None and self.sweep[element] is not None
@@ -453,16 +464,16 @@ class Branch:
             else:
                 yield Anchor(anchor.at, anchor.along + sense * (self.length[element] or 0.0), anchor.left)
 
-    def line_ties(self, index: int) -> Iterator[tuple[Point, float, str]]:
-        """Yield points A at known distances left of a LINE: (A, n.A - p, the end of the LINE at its foot, or "")."""
+    def line_ties(self, index: int) -> Iterator[LineTie]:
+        """Yield the points A at known distances n.A - p left of a LINE."""
         element = self.run.elements[index]
         for anchor in self.anchors_across(index, ARRIVING):
-            yield anchor.at, -anchor.left, "" if anchor.along else "start"
+            yield LineTie(anchor.at, -anchor.left, "" if anchor.along else "start")
         for anchor in self.anchors_across(index + 1, DEPARTING):
-            yield anchor.at, -anchor.left, "" if anchor.along else "end"
+            yield LineTie(anchor.at, -anchor.left, "" if anchor.along else "end")
         point, distance = element.point, element.known.get("point_dist", 0.0)
         if point is not None and (distance == 0.0 or self.point_side[index] is not None):
-            yield point, distance * (self.point_side[index] or 1.0), ""
+            yield LineTie(point, distance * (self.point_side[index] or 1.0))
 
     def vector(self, element: int) -> Point | None:
         """Return the vector from an element's start to its end, if known without them; else None."""
@@ -470,7 +481,7 @@ class Branch:
         if "x_end_inc" in known and "y_end_inc" in known:
             return known["x_end_inc"], known["y_end_inc"]
         heading = self.heading_in[element]
-        if heading is None or not self._shape(element):
+        if heading is None or not self._shape_known(element):
             return None
         (tx, ty), (nx, ny) = direction(heading), normal(heading)
         rho, turn = self.rho[element], self.run.elements[element].turn

@@ -39,7 +39,7 @@ def with_fitting_number(run: Run, finding: Finding) -> Finding:
     when the run is solved without it.
     """
     if finding.code == "CONTRADICTION":
-        return _by_the_rest(run, finding)
+        return _with_value_of_other_data(run, finding)
     if finding.code not in ABOUT_RADIUS:
         return finding
     for index, element in enumerate(run.elements):
@@ -51,7 +51,7 @@ def with_fitting_number(run: Run, finding: Finding) -> Finding:
     return finding
 
 
-def _by_the_rest(run: Run, finding: Finding) -> Finding:
+def _with_value_of_other_data(run: Run, finding: Finding) -> Finding:
     """Report the value that the contradicting number has in the run's answers without it, the nearest if several."""
     index = next(index for index, element in enumerate(run.elements) if element.number == finding.segment)
     element = run.elements[index]
@@ -59,8 +59,8 @@ def _by_the_rest(run: Run, finding: Finding) -> Finding:
     if name is None:
         return finding
     typed = element.known[name]
-    rest = replace(element, typed=tuple(datum for datum in element.typed if datum[0] != name))
-    answers = search(replace(run, elements=(*run.elements[:index], rest, *run.elements[index + 1 :]))).answers
+    without_number = replace(element, typed=tuple(datum for datum in element.typed if datum[0] != name))
+    answers = search(replace(run, elements=(*run.elements[:index], without_number, *run.elements[index + 1 :]))).answers
     values = [value for answer in answers if (value := measured(answer.pieces[index]).get(name)) is not None]
     if not values:
         return finding
@@ -73,20 +73,20 @@ def _by_the_rest(run: Run, finding: Finding) -> Finding:
 def _limit(run: Run, index: int) -> float | None:
     """Return the radius nearest to the typed one with which the run has an answer, None if no tried one has."""
     radius = run.elements[index].known["radius"]
-    last = {1: radius, -1: radius}
+    last_failed = {1: radius, -1: radius}
     for factor in TRIED_FACTORS:
         for sign in (1, -1):
-            tried = radius * factor**sign
-            if _fits(run, index, tried):
-                limit = _halved(run, index, last[sign], tried)
+            radius_tried = radius * factor**sign
+            if _fits(run, index, radius_tried):
+                limit = _bisected(run, index, last_failed[sign], radius_tried)
                 # with the tolerance of an answer even the round number beside the limit fits
-                even = round(limit, LIMIT_DECIMALS)
-                return even if search(_with_radius(run, index, even)).answers else limit
-            last[sign] = tried
+                rounded = round(limit, LIMIT_DECIMALS)
+                return rounded if search(_with_radius(run, index, rounded)).answers else limit
+            last_failed[sign] = radius_tried
     return None
 
 
-def _halved(run: Run, index: int, bad: float, good: float) -> float:
+def _bisected(run: Run, index: int, bad: float, good: float) -> float:
     for _ in range(HALVINGS):
         middle = (bad + good) / 2.0
         bad, good = (bad, middle) if _fits(run, index, middle) else (middle, good)

@@ -2,7 +2,7 @@
 
 The pick is a point near the first unknown joint of the run (nearly always the end of its first segment).  A few dozen
 starting values are generated about it, and damped Newton steps on the unknown numbers of the chain (`newton`) lead from
-each to an answer.  Every answer is proved by walking its chain; the answer whose joint is nearest to the pick is taken.
+each to an answer.  Every answer is checked by walking its chain; the one whose joint is nearest to the pick is taken.
 None is taken if another pick nearby would lead to a different answer, if the answer is far from the pick, or if the
 data leave the answer free to move.
 """
@@ -16,9 +16,9 @@ from math import atan2, cos, dist, hypot, pi, sin, sqrt, tau
 from typing import Final
 
 from core.geometry.piece import Arc, Point
+from core.program.solve.run.answer_check import objections
 from core.program.solve.run.branch import Run
 from core.program.solve.run.newton import ChainProblem, Numbers, newton_root, norm, slopes
-from core.program.solve.run.proof import objections
 from core.program.solve.run.search import MAX_SAME_DISTANCE, Answer, same_pieces, search
 
 STARTS_PER_PICK: Final = 48
@@ -76,7 +76,7 @@ def _distances(answer: Answer, joint: int, pick: Point) -> tuple[float, ...]:
 
 
 def _answers(problem: ChainProblem, joint: int, pick: Point) -> list[Answer]:
-    """Return all proved answers that the starts lead to; none if the data leave an answer free to move."""
+    """Return all checked answers that the starts lead to; none if the data leave an answer free to move."""
     answers: list[Answer] = []
     for start in _starts(problem, joint, pick):
         root = newton_root(problem, start)

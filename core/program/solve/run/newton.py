@@ -15,8 +15,8 @@ from core.geometry import construct
 from core.geometry.oriented import OrientedLine
 from core.geometry.piece import Arc, Line, Piece, Point
 from core.program.solve.reading import heading_at
+from core.program.solve.run.answer_check import Pieces, objections
 from core.program.solve.run.branch import Branch, Element, Run
-from core.program.solve.run.proof import Pieces, objections
 from core.tolerance import ARC_RADII, JOINED
 
 MAX_STEPS: Final = 30
@@ -107,35 +107,35 @@ class ChainProblem:
             size = part.size.of(numbers)
             c, s = cos(heading), sin(heading)
             if turn:
-                out = heading + turn * part.sweep.of(numbers)
+                arriving = heading + turn * part.sweep.of(numbers)
                 center = (at[0] - turn * size * s, at[1] + turn * size * c)
-                end = (center[0] + turn * size * sin(out), center[1] - turn * size * cos(out))
+                end = (center[0] + turn * size * sin(arriving), center[1] - turn * size * cos(arriving))
             else:
-                out, center, end = heading, at, (at[0] + size * c, at[1] + size * s)
-            walked.append(_Placed(at, end, center, heading, out, size))
-            at, before = end, out
+                arriving, center, end = heading, at, (at[0] + size * c, at[1] + size * s)
+            walked.append(_Placed(at, end, center, heading, arriving, size))
+            at, before = end, arriving
         return walked
 
     def residuals(self, numbers: Numbers) -> Numbers:
-        """Return by how much the chain misses each datum, in millimeters."""
-        missed: Numbers = []
+        """Return the residuals: by how much the chain misses each datum, in millimeters."""
+        residuals: Numbers = []
         walked = self.walk(numbers)
         before = self.run.heading
         for part, placed in zip(self.parts, walked, strict=True):
             known = part.element.known
             if part.heading is not None and part.element.link is not None and before is not None:
-                missed.append(self._angle(placed.leaving - before - part.element.link))
+                residuals.append(self._angle(placed.leaving - before - part.element.link))
             for name in ("angle", "start_angle"):
                 if name in known and part.heading is None:
-                    missed.append(self._angle(placed.leaving - known[name]))
-            missed += [value - known[name] for name, value in _measured(placed) if name in known]
-            missed += self._point(part.element, placed)
-            missed += self._parallel(part.element, placed, walked)
+                    residuals.append(self._angle(placed.leaving - known[name]))
+            residuals += [value - known[name] for name, value in _measured(placed) if name in known]
+            residuals += self._point(part.element, placed)
+            residuals += self._parallel(part.element, placed, walked)
             before = placed.arriving
-        return missed
+        return residuals
 
-    def _angle(self, off: float) -> float:
-        return 2.0 * sin(off / 2.0) * self.scale
+    def _angle(self, difference: float) -> float:
+        return 2.0 * sin(difference / 2.0) * self.scale
 
     def _point(self, element: Element, placed: _Placed) -> Numbers:
         point = element.point
@@ -157,8 +157,8 @@ class ChainProblem:
             target = walked[parallel]
             heading, at = target.leaving, target.start
             side = (placed.start[1] - at[1]) * cos(heading) - (placed.start[0] - at[0]) * sin(heading)
-        missed = [sin(placed.leaving - heading) * self.scale]
-        return [*missed, abs(side) - element.known["offset"]] if "offset" in element.known else missed
+        residuals = [sin(placed.leaving - heading) * self.scale]
+        return [*residuals, abs(side) - element.known["offset"]] if "offset" in element.known else residuals
 
     def numbers_of(self, pieces: Pieces) -> Numbers:
         """Return the values of the unknowns in a chain of pieces."""
@@ -200,26 +200,26 @@ def _measured(placed: _Placed) -> Iterator[tuple[str, float]]:
 
 def newton_root(problem: ChainProblem, numbers: Numbers) -> Numbers | None:
     """Return the root that damped Newton steps (Levenberg-Marquardt) reach from a start, None if they reach none."""
-    missed = problem.residuals(numbers)
-    size, damping = norm(missed), 1e-3
+    residuals = problem.residuals(numbers)
+    size, damping = norm(residuals), 1e-3
     for count in range(MAX_STEPS):
         if size <= CONVERGED_RESIDUAL * problem.scale:
             return numbers
         if count >= HOPELESS_RESIDUAL[0] and size > HOPELESS_RESIDUAL[1] * problem.scale:
             return None
-        columns = slopes(problem, numbers, missed)
+        columns = slopes(problem, numbers, residuals)
         for _ in range(4):
-            step = _step(columns, missed, damping)
-            tried = [value + change for value, change in zip(numbers, step, strict=True)]
-            after = problem.residuals(tried)
-            if norm(after) < size:
+            step = _step(columns, residuals, damping)
+            trial = [value + change for value, change in zip(numbers, step, strict=True)]
+            trial_residuals = problem.residuals(trial)
+            if norm(trial_residuals) < size:
                 break
             damping *= 10.0
         else:
             break
-        numbers, missed, size, damping = tried, after, norm(after), damping * 0.1
+        numbers, residuals, size, damping = trial, trial_residuals, norm(trial_residuals), damping * 0.1
     close = ARC_RADII if problem.surplus else MAX_ROOT_RESIDUAL * problem.scale
-    return numbers if max(map(abs, missed), default=inf) <= close else None
+    return numbers if max(map(abs, residuals), default=inf) <= close else None
 
 
 def norm(values: Numbers) -> float:
@@ -227,20 +227,20 @@ def norm(values: Numbers) -> float:
     return sqrt(sum(value * value for value in values))
 
 
-def slopes(problem: ChainProblem, numbers: Numbers, missed: Numbers) -> list[Numbers]:
+def slopes(problem: ChainProblem, numbers: Numbers, residuals: Numbers) -> list[Numbers]:
     """Return the derivatives of the residuals, one column for each unknown, per radian or per millimeter."""
     columns = []
     for index, angular in enumerate(problem.angular):
-        small = 1e-7 if angular else 1e-7 * problem.scale
-        moved = problem.residuals([*numbers[:index], numbers[index] + small, *numbers[index + 1 :]])
-        columns.append([(after - before) / small for after, before in zip(moved, missed, strict=True)])
+        increment = 1e-7 if angular else 1e-7 * problem.scale
+        shifted = problem.residuals([*numbers[:index], numbers[index] + increment, *numbers[index + 1 :]])
+        columns.append([(after - before) / increment for after, before in zip(shifted, residuals, strict=True)])
     return columns
 
 
-def _step(columns: list[Numbers], missed: Numbers, damping: float) -> Numbers:
+def _step(columns: list[Numbers], residuals: Numbers, damping: float) -> Numbers:
     """Return the damped least-squares step toward vanishing residuals."""
     square = [[sum(a * b for a, b in zip(column, other, strict=True)) for other in columns] for column in columns]
-    right = [-sum(a * b for a, b in zip(column, missed, strict=True)) for column in columns]
+    right = [-sum(a * b for a, b in zip(column, residuals, strict=True)) for column in columns]
     for index, row in enumerate(square):
         row[index] += damping * row[index] + 1e-300
     return _eliminated(square, right)

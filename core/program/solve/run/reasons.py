@@ -11,8 +11,8 @@ from core.finding import Finding, Severity
 from core.geometry.oriented import Circle, Locus
 from core.geometry.piece import Point, Turn
 from core.program.fields import Form, field_of
-from core.program.solve.rules import angle_text, counted_like
-from core.program.solve.run.branch import Branch, Element, Run
+from core.program.solve.rules import angle_text, nearest_equivalent
+from core.program.solve.run.branch import Branch, Element, LineTie, Run
 from core.tolerance import ARC_RADII
 
 
@@ -70,20 +70,20 @@ def out_of_range(branch: Branch, index: int) -> Finding:
     if index + 1 < len(elements) and not element.turn and not elements[index + 1].turn:
         first, second = branch.heading_in[index], branch.heading_in[index + 1]
         if first is not None and second is not None:
-            off = abs((first - second + pi / 2.0) % pi - pi / 2.0)
-            if off < 0.01:
+            angle = abs((first - second + pi / 2.0) % pi - pi / 2.0)
+            if angle < 0.01:
                 text += f" Segments {element.number} and {elements[index + 1].number} are parallel but for "
-                text += f"{degrees(off):.3f} degrees."
+                text += f"{degrees(angle):.3f} degrees."
     return _fault("OUT_OF_RANGE", text, element, None)
 
 
-def radii_differ(element: Element, radius: float, out: float) -> Finding:
+def radii_differ(element: Element, radius: float, end_radius: float) -> Finding:
     """An arc's ends lie at different distances from its center."""
     text = "The arc's radius is {0~1} at its start and {1~0} at its end: correct the end, the center or RADIUS."
-    return _fault("CONTRADICTION", text, element, "radius", radius, out)
+    return _fault("CONTRADICTION", text, element, "radius", radius, end_radius)
 
 
-def _rest(run: Run) -> str:
+def _other_data(run: Run) -> str:
     """Name what a value of one element contradicts."""
     return segments(run.elements).replace("S", "s", 1) if len(run.elements) > 1 else "its other fields"
 
@@ -92,18 +92,18 @@ def angle_differs(run: Run, index: int, name: str, typed: float, actual: float) 
     """A typed angle differs from the one that the other data give."""
     element = run.elements[index]
     if name != "sweep":
-        actual = counted_like(actual, typed)
+        actual = nearest_equivalent(actual, typed)
     given, other = angle_text(typed), angle_text(actual)
     if given == other:
         given, other = f"{degrees(typed):.6f}", f"{degrees(actual):.6f}"
-    text = f"{label(element, name)} is {given}, but {other} by {_rest(run)}: correct or blank one of them."
+    text = f"{label(element, name)} is {given}, but {other} by {_other_data(run)}: correct or blank one of them."
     return _fault("CONTRADICTION", text, element, name.removesuffix("_inc"))
 
 
 def length_differs(run: Run, index: int, name: str, typed: float, actual: float) -> Finding:
     """A typed length or coordinate differs from the one that the other data give."""
     element = run.elements[index]
-    text = f"{label(element, name)} is {{0~1}}, but {{1~0}} by {_rest(run)}: correct or blank one of them."
+    text = f"{label(element, name)} is {{0~1}}, but {{1~0}} by {_other_data(run)}: correct or blank one of them."
     return _fault("CONTRADICTION", text, element, name.removesuffix("_inc"), typed, actual)
 
 
@@ -121,19 +121,19 @@ def not_linked(run: Run, index: int, link: float, actual: float) -> Finding:
         text = f"Segment {element.number} is not tangent to the one before: the corner turns by {turned:.3f} degrees. "
         return _fault("CONTRADICTION", f"{text}Blank TANGENT, or correct one of them.", element, "tangent")
     name = "start_angle" if element.turn else "angle"
-    text = f"{label(element, name)} is I{degrees(link):g}, but I{turned:.3f} by {_rest(run)}: correct or blank "
+    text = f"{label(element, name)} is I{degrees(link):g}, but I{turned:.3f} by {_other_data(run)}: correct or blank "
     return _fault("CONTRADICTION", f"{text}one of them.", element, name)
 
 
-def not_parallel(element: Element, wanted: float, actual: float) -> Finding:
+def not_parallel(element: Element, target_heading: float, actual: float) -> Finding:
     """A line is not parallel to its target, which runs at the wanted angle or opposite to it."""
-    if cos(actual - wanted) < 0.0:
-        wanted += pi
+    if cos(actual - target_heading) < 0.0:
+        target_heading += pi
     if (typed := element.known.get("angle")) is not None:
-        given, other = angle_text(typed), angle_text(counted_like(wanted, typed))
+        given, other = angle_text(typed), angle_text(nearest_equivalent(target_heading, typed))
         text = f"XY ANGLE is {given}, but {other} by PARALLEL TO: correct or blank one of them."
     else:
-        given, other = angle_text(actual % tau), angle_text(wanted % tau)
+        given, other = angle_text(actual % tau), angle_text(target_heading % tau)
         text = f"XY ANGLE comes to {given}, but {other} by PARALLEL TO: correct the end, or blank PARALLEL TO."
     return _fault("CONTRADICTION", text, element, "parallel")
 
@@ -148,8 +148,8 @@ def coincident(run: Run, index: int) -> Finding:
     return _fault("UNDETERMINED", text, second, None)
 
 
-def no_meeting(branch: Branch, joint: int, first: Locus, second: Locus, apart: float) -> Finding:
-    """Two loci of a joint miss each other; `apart` is as in `oriented.Meeting`."""
+def no_meeting(branch: Branch, joint: int, first: Locus, second: Locus, distance: float) -> Finding:
+    """Two loci of a joint miss each other; `distance` is as in `oriented.Meeting`."""
     elements = branch.run.elements
     before = elements[joint - 1]
     after = elements[joint] if joint < len(elements) else before
@@ -157,11 +157,11 @@ def no_meeting(branch: Branch, joint: int, first: Locus, second: Locus, apart: f
     arcs = [_arc_about(branch, (joint - 1, joint), circle.center) for circle in circles]
     match circles:
         case [circle]:
-            return _line_misses(before, after, apart, circle, arcs[0])
+            return _line_misses(before, after, distance, circle, arcs[0])
         case [_, _]:
-            return _circles_miss(before, after, apart, circles, arcs)
+            return _circles_miss(before, after, distance, circles, arcs)
         case _:
-            return _parallel_lines(before, after, apart)
+            return _parallel_lines(before, after, distance)
 
 
 def _arc_about(branch: Branch, indices: tuple[int, int], at: Point) -> Element | None:
@@ -174,50 +174,48 @@ def _arc_about(branch: Branch, indices: tuple[int, int], at: Point) -> Element |
     return None
 
 
-def _parallel_lines(before: Element, after: Element, apart: float) -> Finding:
+def _parallel_lines(before: Element, after: Element, distance: float) -> Finding:
     if before is after:
         text = f"Segment {before.number} runs {{0}} beside the end that is typed: it never reaches it. Correct one."
-        return _fault("NO_MEETING", text, before, None, apart)
+        return _fault("NO_MEETING", text, before, None, distance)
     text = f"Segments {before.number} and {after.number} are parallel, {{0}} apart: they never meet."
-    return _fault("NO_MEETING", text, after, None, apart)
+    return _fault("NO_MEETING", text, after, None, distance)
 
 
-def _line_misses(before: Element, after: Element, height: float, circle: Circle, arc: Element | None) -> Finding:
+def _line_misses(before: Element, after: Element, distance: float, circle: Circle, arc: Element | None) -> Finding:
     if arc is not None:
         other = before if arc is after else after
         subject = f"Segment {other.number}" if other is not arc else "The end that is typed"
         text = f"{subject} passes the circle of segment {arc.number} at {{0~1}}; its RADIUS is {{1~0}}."
-        return _fault("NO_MEETING", text, arc, "radius", height, circle.radius)
+        return _fault("NO_MEETING", text, arc, "radius", distance, circle.radius)
     element = next((element for element in (after, before) if "length" in element.known), after)
     field = "radius" if element.turn else "length"
     text = f"{label(element, field)} {{0~1}} does not reach: it takes at least {{1+}}."
-    return _fault("TOO_SHORT", text, element, field, circle.radius, height)
+    return _fault("TOO_SHORT", text, element, field, circle.radius, distance)
 
 
 def _circles_miss(
-    before: Element, after: Element, between: float, circles: list[Circle], arcs: list[Element | None]
+    before: Element, after: Element, center_distance: float, circles: list[Circle], arcs: list[Element | None]
 ) -> Finding:
     first, second = circles
     if None not in arcs:
         text = f"The circles of segments {before.number} and {after.number} never meet: their centers are {{2}} apart, "
         text += "their RADIUS {0} and {1}."
-        return _fault("NO_MEETING", text, after, "radius", first.radius, second.radius, between)
+        return _fault("NO_MEETING", text, after, "radius", first.radius, second.radius, center_distance)
     names = [_size_label(element) for element in (before, after)]
     both = names[0] if names[0] == names[1] else ""
     text = (
         f"{both or names[0]} {{0}} and {'' if both else f'{names[1]} '}{{1}} do not reach: the points are {{2}} apart."
     )
     field = "radius" if after.turn else "length"
-    return _fault("TOO_SHORT", text, after, field, first.radius, second.radius, between)
+    return _fault("TOO_SHORT", text, after, field, first.radius, second.radius, center_distance)
 
 
 def _size_label(element: Element) -> str:
     return "The chord" if element.turn else label(element, "length")
 
 
-def no_tangent(
-    branch: Branch, index: int, first: tuple[Point, float, str], second: tuple[Point, float, str]
-) -> Finding:
+def no_tangent(branch: Branch, index: int, first: LineTie, second: LineTie) -> Finding:
     """No line passes two points at the given distances."""
     element, elements = branch.run.elements[index], branch.run.elements
     (a, r, _), (b, s, _) = first, second
@@ -279,10 +277,13 @@ def missing(stuck: Branch, count: int, tangent: int | None) -> Finding:
     subject = segments(run.elements)
     verb = "needs" if len(run.elements) == 1 else "need"
     element, name = suggested(stuck)
-    ways = [f"{label(element, name)} of {element.number}", "an end" if name == "x_end" else "an end (X END or Y END)"]
+    suggestions = [
+        f"{label(element, name)} of {element.number}",
+        "an end" if name == "x_end" else "an end (X END or Y END)",
+    ]
     if tangent is not None and name != "angle":
-        ways.append(f"TANGENT YES on {tangent}")
-    text = f"{subject} {verb} {values}: {', or '.join(ways)}."
+        suggestions.append(f"TANGENT YES on {tangent}")
+    text = f"{subject} {verb} {values}: {', or '.join(suggestions)}."
     return Finding("MISSING", Severity.ERROR, text, segment=element.number, field=name)
 
 
@@ -295,8 +296,8 @@ def suggested(stuck: Branch) -> tuple[Element, str]:
     for arcs, name in ((True, "radius"), (False, "angle"), (False, "length"), (True, "sweep"), (False, "x_end")):
         for index, element in enumerate(run.elements):
             relative = element.link is not None if name == "angle" else f"{name}_inc" in element.known
-            given = _follows(stuck, index, name) or (name == "radius" and _radius_follows(run, element))
-            if bool(element.turn) is arcs and name not in element.known and not relative and not given:
+            follows = _follows(stuck, index, name) or (name == "radius" and _radius_follows(run, element))
+            if bool(element.turn) is arcs and name not in element.known and not relative and not follows:
                 return element, name
     return run.elements[0], "x_end"
 
@@ -317,7 +318,7 @@ def _radius_follows(run: Run, element: Element) -> bool:
     return {"x_center_inc", "y_center_inc"} <= known.keys() or ({"x_center", "y_center"} <= known.keys() and point)
 
 
-def not_yet(run: Run, *, tried: bool) -> Finding:
+def unsolvable(run: Run, *, tried: bool) -> Finding:
     """The data suffice, but no method solves them; `tried` if the operator's pick leads to no solution either."""
     text = f"{segments(run.elements)} cannot be calculated from these data yet: enter one end, or a center."
     if tried:
@@ -334,7 +335,7 @@ def pick_nearer(run: Run, count: int) -> Finding:
 
 def pick_solution(run: Run, count: int, *, picked: bool) -> Finding:
     """Several answers fit and none is picked, or the picked one is no longer possible."""
-    gone = "The solution that was picked is no longer possible. " if picked else ""
+    vanished = "The solution that was picked is no longer possible. " if picked else ""
     number = {1: "One solution fits", 2: "Two solutions fit"}.get(count, f"{count} solutions fit")
-    text = f"{gone}{number}: pick {'it' if count == 1 else 'one'} on SOLUTION."
+    text = f"{vanished}{number}: pick {'it' if count == 1 else 'one'} on SOLUTION."
     return Finding("PICK_SOLUTION", Severity.ERROR, text, segment=run.elements[0].number, field="choice")

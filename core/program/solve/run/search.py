@@ -1,17 +1,17 @@
-"""This module finds every answer of a run: it follows the branches of the steps and proves each one."""
+"""This module finds every answer of a run: it follows the branches of the steps and checks each answer."""
 
 from __future__ import annotations
 
 from dataclasses import dataclass
 from functools import lru_cache
 from math import dist
-from typing import Final
+from typing import Final, NamedTuple
 
 from core.finding import Finding
 from core.geometry.piece import Piece, Point
+from core.program.solve.run.answer_check import Pieces, chain_of
 from core.program.solve.run.branch import Branch, DeadEnd, Run
 from core.program.solve.run.newton import polished
-from core.program.solve.run.proof import Pieces, chain_of
 from core.program.solve.run.steps import STEPS
 
 MAX_SAME_DISTANCE: Final = 1e-6
@@ -53,10 +53,25 @@ class Search:
     """The values known without a choice."""
 
 
+CHAIN_WITH_OBJECTIONS: Final = 0
+PIECE_IMPOSSIBLE: Final = 1
+NO_CHAIN_YET: Final = 2
+"""How far a dropped branch got, the farthest first."""
+
+
+class _Dropped(NamedTuple):
+    """A branch without an answer: how far it got, and the first of the objections to it."""
+
+    stage: int
+    objection_count: int
+    finding: Finding
+
+
 @lru_cache(512)
 def search(run: Run) -> Search:
     """Return every answer that the steps give."""
-    first, dropped = Branch(run), []
+    first = Branch(run)
+    dropped: list[_Dropped] = []
     answers: list[Answer] = []
     stuck: Branch | None = None
     waiting, count = [first], 0
@@ -64,13 +79,12 @@ def search(run: Run) -> Search:
         branch, count = waiting.pop(), count + 1
         branch.settle()
         try:
-            tried = () if branch.complete else (step(branch) for step in STEPS)
-            ways = next((ways for ways in tried if ways is not None), None)
+            next_branches = None if branch.complete else _next_branches(branch)
         except DeadEnd as end:
-            dropped.append((2, 0, end.finding))
+            dropped.append(_Dropped(NO_CHAIN_YET, 0, end.finding))
             continue
-        if ways is not None:
-            waiting += reversed(ways)
+        if next_branches is not None:
+            waiting += reversed(next_branches)
         elif not branch.complete:
             stuck = stuck or branch
         else:
@@ -81,17 +95,27 @@ def search(run: Run) -> Search:
                 if not any(same_pieces(chain, other.pieces, MAX_SAME_DISTANCE) for other in answers):
                     answers.append(Answer(_choice_of(branch), chain))
             else:
-                dropped.append((0 if chain is not None else 1, len(objections), objections[0]))
+                stage = CHAIN_WITH_OBJECTIONS if chain is not None else PIECE_IMPOSSIBLE
+                dropped.append(_Dropped(stage, len(objections), objections[0]))
     if waiting:
         stuck, answers = stuck or first, []
     answers.sort(key=lambda answer: (round(answer.length, 5), answer.choice))
-    dropped.sort(key=lambda drop: drop[:2])
-    return Search(tuple(answers), tuple(drop[2] for drop in dropped), stuck, first)
+    dropped.sort(key=lambda drop: (drop.stage, drop.objection_count))
+    return Search(tuple(answers), tuple(drop.finding for drop in dropped), stuck, first)
+
+
+def _next_branches(branch: Branch) -> list[Branch] | None:
+    """Return the branches that the first step that applies leads to, None if no step applies."""
+    for step in STEPS:
+        next_branches = step(branch)
+        if next_branches is not None:
+            return next_branches
+    return None
 
 
 def _choice_of(branch: Branch) -> int:
-    code = sum(root << place for place, root in enumerate(branch.choices))
-    return code + sum(1 << (GRAZE_SHIFT + place) for place, grazing in enumerate(branch.grazes) if grazing)
+    roots = sum(root << step for step, root in enumerate(branch.choices))
+    return roots + sum(1 << (GRAZE_SHIFT + step) for step, grazing in enumerate(branch.grazes) if grazing)
 
 
 def same_pieces(first: Pieces, second: Pieces, within: float) -> bool:

@@ -13,13 +13,14 @@ therefore leave one quadratic equation: at most two circles.
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator
+from itertools import combinations
 from math import cos, dist, hypot, pi, sin, sqrt
 from typing import Final, NamedTuple
 
 from core.geometry.oriented import Locus, OrientedLine, direction, headings_at_distances, meeting, normal
 from core.geometry.piece import Point
 from core.program.solve.run import reasons
-from core.program.solve.run.branch import ARRIVING, DEPARTING, Anchor, Branch, DeadEnd
+from core.program.solve.run.branch import ARRIVING, DEPARTING, Anchor, Branch, DeadEnd, LineTie
 from core.tolerance import ARC_RADII, GRAZE, JOINED, MIN_INDEPENDENT_SINE
 
 Point3 = tuple[float, float, float]
@@ -189,11 +190,11 @@ def _on_locus(coordinates: tuple[Row, Row], locus: Locus | Point, origin: Point)
         yield a, b, e, f + locus.offset - nx * origin[0] - ny * origin[1]
         return
     at = locus if isinstance(locus, tuple) else locus.center
-    off = (*first[:3], first[3] + at[0] - origin[0]), (*second[:3], second[3] + at[1] - origin[1])
+    shifted = (*first[:3], first[3] + at[0] - origin[0]), (*second[:3], second[3] + at[1] - origin[1])
     if isinstance(locus, tuple):
-        yield from off
+        yield from shifted
     else:
-        yield Quadric(*off, locus.radius**2)
+        yield Quadric(*shifted, locus.radius**2)
 
 
 def _difference(first: Quadric, second: Quadric) -> Row:
@@ -212,12 +213,12 @@ def _independent(rows: list[Row]) -> list[Row]:
             if len(basis) == 3 or size < VANISHING_COEFFICIENT:
                 continue
             a, b, e, f = (value / size for value in row)
-            rest = (a, b, e)
+            remainder = (a, b, e)
             for axis in frame:
-                rest = _moved(rest, -_dot((a, b, e), axis), axis)
-            left = hypot(*rest)
-            if left > least:
-                frame.append(_moved(ORIGIN, 1.0 / left, rest))
+                remainder = _moved(remainder, -_dot((a, b, e), axis), axis)
+            remaining_length = hypot(*remainder)
+            if remaining_length > least:
+                frame.append(_moved(ORIGIN, 1.0 / remaining_length, remainder))
                 basis.append((a, b, e, f))
     return basis
 
@@ -239,9 +240,9 @@ def _solved(basis: list[Row]) -> Point3:
     """Solve three linear conditions by Cramer's rule."""
     first, second, third = basis
     normals = _cross(second, third), _cross(third, first), _cross(first, second)
-    whole, point = _dot(first, normals[0]), ORIGIN
+    determinant, point = _dot(first, normals[0]), ORIGIN
     for row, across in zip(basis, normals, strict=True):
-        point = _moved(point, row[3] / whole, across)
+        point = _moved(point, row[3] / determinant, across)
     return point
 
 
@@ -264,35 +265,35 @@ def _roots(quadric: Quadric, at: Point3, along: Point3) -> tuple[tuple[float, ..
     return (middle - half, middle + half), False
 
 
-Ways = list[Branch]
-Step = Callable[[Branch], Ways | None]
+NextBranches = list[Branch]
+Step = Callable[[Branch], NextBranches | None]
 """Returns the branches that follow, None if the step does not apply; raises DeadEnd if nothing fits."""
 
 
-def _parallel(branch: Branch) -> Ways | None:
+def _parallel(branch: Branch) -> NextBranches | None:
     """Choose the heading of a line PARALLEL TO a known one: the same heading first, then the opposite."""
     for index, element in enumerate(branch.run.elements):
         target = element.parallel
         if target is None:
             continue
-        theirs = target.heading if isinstance(target, OrientedLine) else branch.heading_in[target]
-        ours = branch.heading_in[index]
-        if theirs is not None and ours is None:
-            return _headed(branch, index, (theirs, theirs + pi))
-        if theirs is None and ours is not None and not isinstance(target, OrientedLine):
-            return _headed(branch, target, (ours, ours + pi))
+        target_heading = target.heading if isinstance(target, OrientedLine) else branch.heading_in[target]
+        own_heading = branch.heading_in[index]
+        if target_heading is not None and own_heading is None:
+            return _with_headings(branch, index, (target_heading, target_heading + pi))
+        if target_heading is None and own_heading is not None and not isinstance(target, OrientedLine):
+            return _with_headings(branch, target, (own_heading, own_heading + pi))
     return None
 
 
-def _headed(branch: Branch, index: int, headings: tuple[float, ...], *, grazing: bool = False) -> Ways:
+def _with_headings(branch: Branch, index: int, headings: tuple[float, ...], *, grazing: bool = False) -> NextBranches:
     """Return a branch for each heading that a LINE may have."""
-    ways = [branch.chosen(root, grazing=grazing) for root in range(len(headings))]
-    for way, heading in zip(ways, headings, strict=True):
-        way.put_heading(index, heading)
-    return ways
+    next_branches = [branch.chosen(root, grazing=grazing) for root in range(len(headings))]
+    for next_branch, heading in zip(next_branches, headings, strict=True):
+        next_branch.put_heading(index, heading)
+    return next_branches
 
 
-def _joint(branch: Branch) -> Ways | None:
+def _joint(branch: Branch) -> NextBranches | None:
     """Choose a joint among the points where two loci meet."""
     for index in range(1, len(branch.x)):
         if branch.joint(index) is not None or len(loci := branch.loci(index)) < 2:
@@ -300,10 +301,10 @@ def _joint(branch: Branch) -> Ways | None:
         met = meeting(loci[0], loci[1])
         if not met.points:
             raise DeadEnd(reasons.no_meeting(branch, index, loci[0], loci[1], met.distance))
-        ways = [branch.chosen(root, grazing=met.grazing) for root in range(len(met.points))]
-        for way, point in zip(ways, met.points, strict=True):
-            way.put_joint(index, point)
-        return ways
+        next_branches = [branch.chosen(root, grazing=met.grazing) for root in range(len(met.points))]
+        for next_branch, point in zip(next_branches, met.points, strict=True):
+            next_branch.put_joint(index, point)
+        return next_branches
     return None
 
 
@@ -317,79 +318,76 @@ def _arcs(branch: Branch) -> Iterator[tuple[int, Circles]]:
             yield index, answer
 
 
-def _single_circle(branch: Branch) -> Ways | None:
+def _single_circle(branch: Branch) -> NextBranches | None:
     """Set a circle that is the only one that fits."""
     for index, answer in _arcs(branch):
         if len(answer.fitting) == 1 and not answer.grazing:
-            return _circle_ways(branch, index, answer)
+            return _with_circles(branch, index, answer)
     return None
 
 
-def _circle(branch: Branch) -> Ways | None:
+def _circle(branch: Branch) -> NextBranches | None:
     """Choose one of the circles that fit."""
     for index, answer in _arcs(branch):
-        return _circle_ways(branch, index, answer)
+        return _with_circles(branch, index, answer)
     return None
 
 
-def _circle_ways(branch: Branch, index: int, answer: Circles) -> Ways:
+def _with_circles(branch: Branch, index: int, answer: Circles) -> NextBranches:
     element = branch.run.elements[index]
     if not answer.fitting:
         raise DeadEnd(reasons.no_circle(element))
     single = len(answer.fitting) == 1 and not answer.grazing
-    ways = []
+    next_branches = []
     for root, (center, rho) in enumerate(answer.fitting):
         if rho * element.turn <= JOINED:
             continue
-        way = branch.copy() if single else branch.chosen(root, grazing=answer.grazing)
-        way.put_center(index, center)
-        way.put(way.rho, index, rho)
-        ways.append(way)
-    if not ways:
+        next_branch = branch.copy() if single else branch.chosen(root, grazing=answer.grazing)
+        next_branch.put_center(index, center)
+        next_branch.put(next_branch.rho, index, rho)
+        next_branches.append(next_branch)
+    if not next_branches:
         raise DeadEnd(reasons.wrong_sense(element))
-    return ways
+    return next_branches
 
 
-def _plain_headings(branch: Branch) -> Ways | None:
+def _plain_headings(branch: Branch) -> NextBranches | None:
     """Set the headings of all LINEs from one known point or circle to another: each has one root."""
-    way: Branch | None = None
+    next_branch: Branch | None = None
     for index, first, second in _tied_lines(branch):
-        if (first[2], second[2]) != ("start", "end"):
+        if (first.end, second.end) != ("start", "end"):
             continue
-        headings, _ = headings_at_distances(first[0], first[1], second[0], second[1])
+        headings, _ = headings_at_distances(first.point, first.distance, second.point, second.distance)
         if not headings:
             raise DeadEnd(reasons.no_tangent(branch, index, first, second))
-        way = way or branch.copy()
-        way.put_heading(index, headings[0])
-    return None if way is None else [way]
+        next_branch = next_branch or branch.copy()
+        next_branch.put_heading(index, headings[0])
+    return None if next_branch is None else [next_branch]
 
 
-def _heading(branch: Branch) -> Ways | None:
+def _heading(branch: Branch) -> NextBranches | None:
     """Choose a LINE's heading from two points that it passes at known distances."""
     for index, first, second in _tied_lines(branch):
-        headings, grazing = headings_at_distances(first[0], first[1], second[0], second[1])
+        headings, grazing = headings_at_distances(first.point, first.distance, second.point, second.distance)
         if not headings:
             raise DeadEnd(reasons.no_tangent(branch, index, first, second))
-        return _headed(branch, index, headings, grazing=grazing)
+        return _with_headings(branch, index, headings, grazing=grazing)
     return None
 
 
-Tie = tuple[Point, float, str]
-
-
-def _tied_lines(branch: Branch) -> Iterator[tuple[int, Tie, Tie]]:
+def _tied_lines(branch: Branch) -> Iterator[tuple[int, LineTie, LineTie]]:
     """Yield the LINEs of unknown heading that pass two points at known distances, with these points."""
     for index, element in enumerate(branch.run.elements):
         if element.turn or branch.heading_in[index] is not None:
             continue
         ties = list(branch.line_ties(index))
-        pairs = ((a, b) for at, a in enumerate(ties) for b in ties[at + 1 :] if dist(a[0], b[0]) > JOINED)
+        pairs = (pair for pair in combinations(ties, 2) if dist(pair[0].point, pair[1].point) > JOINED)
         pair = next(pairs, None)
         if pair is not None:
             yield index, *pair
 
 
-def _point_side(branch: Branch) -> Ways | None:
+def _point_side(branch: Branch) -> NextBranches | None:
     """Choose the side on which a LINE passes its POINT at DISTANCE: the point to its left first."""
     for index, element in enumerate(branch.run.elements):
         distance = element.known.get("point_dist", 0.0)
@@ -398,14 +396,14 @@ def _point_side(branch: Branch) -> Ways | None:
         ties = sum(1 for _ in branch.line_ties(index))
         if branch.offset[index] is not None or ties + (branch.heading_in[index] is not None) != 1:
             continue
-        ways = [branch.chosen(root) for root in (0, 1)]
-        for way, side in zip(ways, (1.0, -1.0), strict=True):
-            way.put(way.point_side, index, side)
-        return ways
+        next_branches = [branch.chosen(root) for root in (0, 1)]
+        for next_branch, side in zip(next_branches, (1.0, -1.0), strict=True):
+            next_branch.put(next_branch.point_side, index, side)
+        return next_branches
     return None
 
 
-def _offset_side(branch: Branch) -> Ways | None:
+def _offset_side(branch: Branch) -> NextBranches | None:
     """Choose the side on which a LINE lies OFFSET from its parallel: left of the parallel first."""
     for index, element in enumerate(branch.run.elements):
         heading, offset, parallel = branch.heading_in[index], element.known.get("offset"), element.parallel
@@ -414,15 +412,15 @@ def _offset_side(branch: Branch) -> Ways | None:
         target = parallel if isinstance(parallel, OrientedLine) else branch.line(parallel)
         if target is not None:
             same = abs((heading - target.heading + pi) % (2.0 * pi) - pi) < pi / 2.0
-            ways = [branch.chosen(0), branch.chosen(1)] if offset else [branch.copy()]
-            for way, side in zip(ways, (1.0, -1.0), strict=False):
+            next_branches = [branch.chosen(0), branch.chosen(1)] if offset else [branch.copy()]
+            for next_branch, side in zip(next_branches, (1.0, -1.0), strict=False):
                 shifted = target.offset + side * offset
-                way.put(way.offset, index, shifted if same else -shifted)
-            return ways
+                next_branch.put(next_branch.offset, index, shifted if same else -shifted)
+            return next_branches
     return None
 
 
-def _along_axis(branch: Branch) -> Ways | None:
+def _along_axis(branch: Branch) -> NextBranches | None:
     """Choose the heading of a LINE whose ends have the same known X or the same known Y: to +X or +Y first."""
     for index, element in enumerate(branch.run.elements):
         if element.turn or branch.heading_in[index] is not None:
@@ -430,7 +428,7 @@ def _along_axis(branch: Branch) -> Ways | None:
         for coordinates, heading in ((branch.y, 0.0), (branch.x, pi / 2.0)):
             start, end = coordinates[index], coordinates[index + 1]
             if start is not None and end is not None and abs(end - start) <= JOINED:
-                return _headed(branch, index, (heading, heading + pi))
+                return _with_headings(branch, index, (heading, heading + pi))
     return None
 
 

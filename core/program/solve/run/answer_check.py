@@ -1,4 +1,4 @@
-"""This module proves an answer: it walks the chain from its start and compares every typed number with the actual one.
+"""This module checks an answer: it walks the chain from its start and compares every typed number with the actual one.
 
 A branch that disagrees is dropped, so that surplus data choose among branches.  Lengths agree within 0.00254 mm
 (0.0001 in); angles agree within 0.001 degree, or if they displace the piece by no more than 0.00254 mm.
@@ -14,7 +14,7 @@ from core.geometry.oriented import OrientedLine, direction
 from core.geometry.piece import ANGLE_ROUNDING, Arc, Line, Piece, Point
 from core.program.fields import LARGEST_LENGTH
 from core.program.solve.reading import ANGLE_FIELDS, heading_at, measured
-from core.program.solve.rules import turns_alike
+from core.program.solve.rules import angles_agree
 from core.program.solve.run import reasons
 from core.program.solve.run.branch import Branch, Element, Run
 from core.tolerance import AGREES, ARC_RADII, CLOSED, JOINED, LARGEST_COORDINATE
@@ -32,18 +32,18 @@ def chain_of(branch: Branch) -> tuple[Pieces | None, tuple[Finding, ...]]:
         # the end of an arc may have moved onto its circle
         start, end = pieces[-1].end if pieces else run.start, branch.joint(index + 1)
         assert end is not None
-        far = max(map(abs, end)) > LARGEST_LENGTH
+        out_of_range = max(map(abs, end)) > LARGEST_LENGTH
         piece: Piece | None
         if element.turn:
             center = branch.center(index)
             assert center is not None
-            piece, trouble = _arc(element, start, end, center)
-            far = far or max(map(abs, center)) > LARGEST_COORDINATE
+            piece, piece_objections = _arc(element, start, end, center)
+            out_of_range = out_of_range or max(map(abs, center)) > LARGEST_COORDINATE
         else:
-            piece, trouble = _line(run, index, start, end, branch)
-        if far:
+            piece, piece_objections = _line(run, index, start, end, branch)
+        if out_of_range:
             findings.append(reasons.out_of_range(branch, index))
-        findings += trouble
+        findings += piece_objections
         if piece is None:
             return None, tuple(findings)
         pieces.append(piece)
@@ -58,21 +58,21 @@ def _line(run: Run, index: int, start: Point, end: Point, branch: Branch) -> tup
         return None, [reasons.no_length(run.elements[index])]
     if heading is not None:
         tx, ty = direction(heading)
-        ahead = vector[0] * tx + vector[1] * ty
-        if ahead < 0.0:
-            return Line(start, end), [reasons.line_runs_backward(run, index, -ahead, heading)]
+        travel = vector[0] * tx + vector[1] * ty
+        if travel < 0.0:
+            return Line(start, end), [reasons.line_runs_backward(run, index, -travel, heading)]
     return Line(start, end), []
 
 
 def _arc(element: Element, start: Point, end: Point, center: Point) -> tuple[Arc | None, list[Finding]]:
     """Return an arc; None with an objection if its radii at both ends differ or it has no length."""
-    radius, out = dist(start, center), dist(end, center)
+    radius, end_radius = dist(start, center), dist(end, center)
     if dist(start, end) <= CLOSED:
         if not _full(element, start):
             return None, [reasons.no_length(element)]
         return Arc(start, start, center, element.turn), []
-    if abs(radius - out) > ARC_RADII:
-        return None, [reasons.radii_differ(element, radius, out)]
+    if abs(radius - end_radius) > ARC_RADII:
+        return None, [reasons.radii_differ(element, radius, end_radius)]
     arc = construct.exact_arc(start, end, center, element.turn)
     if arc.length <= JOINED:
         return None, [reasons.no_length(element)]
@@ -97,7 +97,7 @@ def objections(run: Run, pieces: Pieces) -> tuple[Finding, ...]:
         leaving = heading_at(piece, piece.start)
         if element.link is not None and before is not None:
             turned = leaving - before - element.link
-            if not turns_alike(remainder(turned, tau), piece):
+            if not angles_agree(remainder(turned, tau), piece):
                 findings.append(reasons.not_linked(run, index, element.link, leaving - before))
         findings += _parallel(run, pieces, index)
         before = heading_at(piece, piece.end)
@@ -112,7 +112,7 @@ def _field_objections(run: Run, index: int, element: Element, piece: Piece) -> l
         if typed is None:
             continue
         if name in ANGLE_FIELDS:
-            if not turns_alike(remainder(typed - actual, tau), piece):
+            if not angles_agree(remainder(typed - actual, tau), piece):
                 findings.append(reasons.angle_differs(run, index, name, typed, actual))
         elif abs(typed - actual) > ARC_RADII:
             findings.append(reasons.length_differs(run, index, name, typed, actual))
@@ -140,15 +140,15 @@ def _parallel(run: Run, pieces: Pieces, index: int) -> list[Finding]:
         return []
     if isinstance(parallel, OrientedLine):
         heading, (nx, ny) = parallel.heading, parallel.normal
-        apart = abs(nx * piece.start[0] + ny * piece.start[1] - parallel.offset)
+        distance = abs(nx * piece.start[0] + ny * piece.start[1] - parallel.offset)
     else:
         target = pieces[parallel]
-        heading, apart = heading_at(target, target.start), _distance(target, piece.start)
+        heading, distance = heading_at(target, target.start), _distance(target, piece.start)
     actual = heading_at(piece, piece.start)
-    off = actual - heading
-    if abs(sin(off)) > AGREES and abs(sin(off)) * piece.length > ARC_RADII:
+    difference = actual - heading
+    if abs(sin(difference)) > AGREES and abs(sin(difference)) * piece.length > ARC_RADII:
         return [reasons.not_parallel(element, heading, actual)]
     typed = element.known.get("offset")
-    if typed is not None and abs(apart - typed) > ARC_RADII:
-        return [reasons.length_differs(run, index, "offset", typed, apart)]
+    if typed is not None and abs(distance - typed) > ARC_RADII:
+        return [reasons.length_differs(run, index, "offset", typed, distance)]
     return []

@@ -38,22 +38,22 @@ DECIMALS: Final = 6
 SAME_PLACE: Final = 1e-3
 """Millimeters by which six decimals may move a point: their rounding, magnified in calculated values."""
 PARALLEL_TO_AXIS: Final = 1e-12
-"""The sine of an angle that is 0 or 180 degrees but for rounding."""
+"""Largest sine of an angle that counts as 0 or 180 degrees."""
 MAX_COPIES: Final = 400
-OTHER_SIDE: Final = {
+OPPOSITE_SIDE: Final = {
     CutterComp.LEFT: CutterComp.RIGHT,
     CutterComp.RIGHT: CutterComp.LEFT,
     CutterComp.PROFILE_LEFT: CutterComp.PROFILE_RIGHT,
     CutterComp.PROFILE_RIGHT: CutterComp.PROFILE_LEFT,
 }
-OTHER_WAY: Final = {Direction.CW: Direction.CCW, Direction.CCW: Direction.CW}
+OPPOSITE_DIRECTION: Final = {Direction.CW: Direction.CCW, Direction.CCW: Direction.CW}
 
 
 @dataclass(frozen=True, slots=True)
 class Motion:
     """A motion of the plane, in millimeters: mirrored in the X axis if `mirrored`, rotated, then shifted.
 
-    Points are complex numbers; `turn` is a complex number of modulus 1.
+    `turn` and `shift` are complex numbers; `turn` has the modulus 1.
     """
 
     turn: complex = 1.0
@@ -78,18 +78,18 @@ class Motion:
         return Motion(other.turn * turn, other.turn * shift + other.shift, self.mirrored is not other.mirrored)
 
 
-def moved(x: float, y: float) -> Motion:
+def shift(x: float, y: float) -> Motion:
     """Return a shift in millimeters."""
     return Motion(shift=complex(x, y))
 
 
-def rotated(center: Point, degrees: float) -> Motion:
+def rotation(center: Point, degrees: float) -> Motion:
     """Return a counterclockwise rotation about a point (mm)."""
     turn, about = exp(1j * radians(degrees)), complex(*center)
     return Motion(turn, about - turn * about)
 
 
-def mirrored(point: Point, degrees: float) -> Motion:
+def reflection(point: Point, degrees: float) -> Motion:
     """Return a reflection in the line through a point (mm) in this direction."""
     turn, about = exp(2j * radians(degrees)), complex(*point)
     return Motion(turn, about - turn * about.conjugate(), mirrored=True)
@@ -105,12 +105,14 @@ def transform_block(program: Program, number: int, motion: Motion) -> Edited:
     assert isinstance(block.y_start, Number)
     unit = program.unit
     x, y = motion.point((to_mm(block.x_start.value, unit), to_mm(block.y_start.value, unit)))
-    side = OTHER_SIDE.get(block.cutter_comp, block.cutter_comp) if motion.mirrored else block.cutter_comp
+    side = OPPOSITE_SIDE.get(block.cutter_comp, block.cutter_comp) if motion.mirrored else block.cutter_comp
     for explicit in (False, True):
         segments = tuple(_transformed(block.segments, solved.segments, motion, unit, explicit=explicit))
-        made = replace(block, x_start=_typed(x, unit), y_start=_typed(y, unit), cutter_comp=side, segments=segments)
-        if _follows(solve_block(made, program), solved.segments, motion):
-            return with_part(program, FormPlace(number), made)
+        moved_block = replace(
+            block, x_start=_typed(x, unit), y_start=_typed(y, unit), cutter_comp=side, segments=segments
+        )
+        if _equals_moved(solve_block(moved_block, program), solved.segments, motion):
+            return with_part(program, FormPlace(number), moved_block)
     return Refused("The block cannot be typed at its new place with six decimals.")
 
 
@@ -137,25 +139,25 @@ def repeat_segments(program: Program, number: int, first: int, last: int, motion
     if not 1 <= copies <= MAX_COPIES:
         return Refused(f"Type a number of copies from 1 to {MAX_COPIES}.")
     if motion.mirrored and copies > 1:
-        return Refused("A mirrored copy is made once.")
+        return Refused("Only one mirrored copy can be made.")
     solved = solve_block(block, program)
     if (refusal := _undetermined(block, solved)) is not None:
         return refusal
     corner = (block.segments[first - 1], block.segments[last - 1])
     if any(isinstance(segment, BlendSegment | ChamferSegment) for segment in corner):
         return Refused("Begin and end the copied segments with a LINE or an ARC.")
-    shapes, kept = solved.segments[first - 1 : last], block.segments[first - 1 : last]
-    end, made, step = _known(shapes[-1].end), list[Segment](), Motion()
+    shapes, originals = solved.segments[first - 1 : last], block.segments[first - 1 : last]
+    end, copied, step = _known(shapes[-1].end), list[Segment](), Motion()
     for _ in range(copies):
         step = step.then(motion)
         begin = step.point(_known(shapes[0].start))
-        copy = list(_transformed(kept, shapes, step, program.unit, explicit=True))
+        copy = list(_transformed(originals, shapes, step, program.unit, explicit=True))
         if dist(begin, end) > SAME_PLACE:
             copy.insert(0, LineSegment(_typed(begin[0], program.unit), _typed(begin[1], program.unit)))
-        made += _with_own_values(copy, shapes, program.unit)
+        copied += _with_own_values(copy, shapes, program.unit)
         end = step.point(_known(shapes[-1].end))
-    after = (renumbered(segment, last + 1, len(made)) for segment in block.segments[last:])
-    segments = (*block.segments[:last], *made, *after)
+    after = (renumbered(segment, last + 1, len(copied)) for segment in block.segments[last:])
+    segments = (*block.segments[:last], *copied, *after)
     return with_part(program, FormPlace(number), replace(block, segments=segments))
 
 
@@ -229,35 +231,40 @@ def _moved_data(segment: LineSegment | ArcSegment, motion: Motion, unit: Unit) -
             case Relative(degrees) if motion.mirrored:
                 values[name] = Relative(-degrees)
     if isinstance(segment, ArcSegment) and motion.mirrored:
-        values["direction"] = OTHER_WAY[segment.direction]
+        values["direction"] = OPPOSITE_DIRECTION[segment.direction]
     return changed(segment, values)
 
 
 def _arc(segment: ArcSegment, shape: SolvedSegment, motion: Motion, unit: Unit) -> ArcSegment:
-    direction = OTHER_WAY[segment.direction] if motion.mirrored else segment.direction
+    direction = OPPOSITE_DIRECTION[segment.direction] if motion.mirrored else segment.direction
     x, y = motion.point(_known(shape.end))
-    made = ArcSegment(direction, _typed(x, unit), _typed(y, unit), segment.z_end, feed=segment.feed)
+    moved_arc = ArcSegment(direction, _typed(x, unit), _typed(y, unit), segment.z_end, feed=segment.feed)
     if isinstance(shape.sharp, Arc):
         x, y = motion.point(shape.sharp.center)
         sweep = segment.sweep if shape.sharp.start == shape.sharp.end else None
-        made = replace(made, x_center=_typed(x, unit), y_center=_typed(y, unit), sweep=sweep)
-    return made
+        moved_arc = replace(moved_arc, x_center=_typed(x, unit), y_center=_typed(y, unit), sweep=sweep)
+    return moved_arc
 
 
-def _follows(made: SolvedBlock, before: Sequence[SolvedSegment], motion: Motion) -> bool:
+def _equals_moved(new: SolvedBlock, before: Sequence[SolvedSegment], motion: Motion) -> bool:
     """True if a block equals the moved old one."""
-    pairs = zip(made.segments, before, strict=True)
-    return made.determined == len(before) and all(_same(now.sharp, old.sharp, motion) for now, old in pairs)
+    pairs = zip(new.segments, before, strict=True)
+    return new.determined == len(before) and all(
+        _same(new_segment.sharp, old_segment.sharp, motion) for new_segment, old_segment in pairs
+    )
 
 
-def _same(now: Piece | None, before: Piece | None, motion: Motion) -> bool:
-    if now is None or before is None:
-        return now is None and before is None
-    points = zip((now.start, now.end), (before.start, before.end), strict=True)
-    if type(now) is not type(before) or any(dist(at, motion.point(old)) > SAME_PLACE for at, old in points):
+def _same(new: Piece | None, old: Piece | None, motion: Motion) -> bool:
+    if new is None or old is None:
+        return new is None and old is None
+    if type(new) is not type(old):
         return False
-    if not (isinstance(now, Arc) and isinstance(before, Arc)):
+    ends = zip((new.start, new.end), (old.start, old.end), strict=True)
+    if any(dist(new_end, motion.point(old_end)) > SAME_PLACE for new_end, old_end in ends):
+        return False
+    if not (isinstance(new, Arc) and isinstance(old, Arc)):
         return True
-    turn = Turn(-before.turn) if motion.mirrored else before.turn
-    full = (now.start == now.end) is (before.start == before.end)
-    return full and now.turn is turn and dist(now.center, motion.point(before.center)) <= SAME_PLACE
+    turn = Turn(-old.turn) if motion.mirrored else old.turn
+    if new.turn is not turn or (new.start == new.end) is not (old.start == old.end):
+        return False
+    return dist(new.center, motion.point(old.center)) <= SAME_PLACE
