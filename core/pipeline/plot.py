@@ -214,9 +214,8 @@ def _areas(subject: Subject, dot: float) -> tuple[Area, ...]:
     if block_paths is None or block.radius is None or block.side is None:
         return ()
     verdict = block_paths.verdict if subject.row is None else subject.row.verdict
-    paths = (
-        [loop.with_leads for loop in block_paths.loops] if subject.row is None else [subject.row.compensated.with_leads]
-    )
+    loops = block_paths.loops if subject.row is None else (subject.row.compensated,)
+    paths = [loop.with_leads for loop in loops]
     if verdict is None or not (verdict.gouges or verdict.uncut):
         return ()
     part = material(block_paths.surface, block.side, block.radius, closed=block.solved.closed, sag=dot / 2)

@@ -38,7 +38,7 @@ def test_the_over_run_square_is_clean_at_cal_and_its_over_run_is_reported():
     assert (result.lookahead.value, result.lookahead.tag, result.lookahead.calculated) == (4, Tag.USR, 2)
     assert result.postable
     np.testing.assert_allclose(
-        result.paths.loops[0].whole.points / IN, [(-1, -0.25), (-0.25, -0.25), (-0.25, -1)], atol=1e-9
+        result.paths.loops[0].with_leads.points / IN, [(-1, -0.25), (-0.25, -0.25), (-0.25, -1)], atol=1e-9
     )
     assert result.paths.verdict.uncut_length / IN == pytest.approx(8.0, abs=1e-5)
     assert result.paths.verdict.surface_length / IN == pytest.approx(8.0, abs=1e-12)
@@ -58,7 +58,7 @@ def test_a_block_with_on_follows_the_contour_and_is_not_judged():
     assert result.side is None
     assert result.paths.compensated is None
     assert result.paths.verdict is None
-    np.testing.assert_allclose(result.paths.loops[0].whole.points / IN, NOTCH, atol=1e-12)
+    np.testing.assert_allclose(result.paths.loops[0].with_leads.points / IN, NOTCH, atol=1e-12)
 
 
 def test_blocks_are_numbered_by_their_place_in_the_program():
@@ -67,7 +67,7 @@ def test_blocks_are_numbered_by_their_place_in_the_program():
     assert [derived_block.number for derived_block in derived.blocks] == [1, 2]
     assert derived.blocks[0].solved.closed
     alone, together = derive_block(derived.program, 2), derived.block(2)
-    assert alone.paths.loops[0].whole.points.tolist() == together.paths.loops[0].whole.points.tolist()
+    assert alone.paths.loops[0].with_leads.points.tolist() == together.paths.loops[0].with_leads.points.tolist()
 
 
 def test_solved_fields_give_the_look_ahead_but_no_path():
@@ -109,7 +109,7 @@ def test_profile_steps_in_from_the_largest_offset_to_the_finish_stock():
     assert result.radius / IN == pytest.approx(0.125)
     lowest = [float(rough.loops[0].path.points[:, 1].min()) / IN for rough in result.paths.rough]
     assert lowest == pytest.approx([-1.25, -0.85, -0.45, -0.27])
-    assert float(result.paths.loops[0].whole.points[:, 1].min()) / IN == pytest.approx(-0.125)
+    assert float(result.paths.loops[0].with_leads.points[:, 1].min()) / IN == pytest.approx(-0.125)
     assert stocks(result, derive(program(typed, parameters=parameters)).program) == tuple(
         rough.stock for rough in result.paths.rough
     )
@@ -257,7 +257,9 @@ def test_the_best_path_equals_a_clean_and_complete_control_path():
     control = derive(part).blocks[0]
     assert better_path(control) == ()
     result = best(MID_SIDE_SQUARE, CutterComp.LEFT)
-    np.testing.assert_allclose(result.paths.loops[0].whole.points, control.paths.loops[0].whole.points, atol=1e-9)
+    np.testing.assert_allclose(
+        result.paths.loops[0].with_leads.points, control.paths.loops[0].with_leads.points, atol=1e-9
+    )
 
 
 def test_a_cutter_that_fits_nowhere_has_no_best_path_and_is_not_postable():
@@ -271,7 +273,9 @@ def test_a_cutter_that_fits_nowhere_has_no_best_path_and_is_not_postable():
 def test_the_path_is_the_same_in_the_other_unit():
     part = replace(program(block(NOTCH, CutterComp.LEFT)), parameters=ProgramParameters())
     inch, metric = derive(part).blocks[0], derive(set_unit(part, Unit.MM)).blocks[0]
-    np.testing.assert_allclose(metric.paths.loops[0].whole.points, inch.paths.loops[0].whole.points, atol=1e-9)
+    np.testing.assert_allclose(
+        metric.paths.loops[0].with_leads.points, inch.paths.loops[0].with_leads.points, atol=1e-9
+    )
 
 
 @pytest.mark.parametrize(("height", "limit"), [(0.1, "Z START"), (-0.3, "Z BOTTOM")])

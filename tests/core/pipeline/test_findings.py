@@ -134,7 +134,7 @@ def test_an_unusable_safe_z_prevents_posting_and_changes_no_path(typed):
     before = derive(part)
     after = derive(replace(part, setup=replace(part.setup, safe_z=typed)))
     assert "safe_z" in [finding.field for finding in after.blocks[0].errors]
-    ours, theirs = (derived.blocks[0].paths.loops[0].whole.points.tolist() for derived in (before, after))
+    ours, theirs = (derived.blocks[0].paths.loops[0].with_leads.points.tolist() for derived in (before, after))
     assert ours == theirs
 
 

@@ -64,7 +64,7 @@ def test_every_value_is_judged_by_its_own_path(points, choice):
     rows = look_ahead_table(derived, part).rows
     for row in rows:
         assert comparable(row.verdict) == comparable(
-            judge(derived.paths.surface, derived.side, derived.radius, row.compensated.whole)
+            judge(derived.paths.surface, derived.side, derived.radius, row.compensated.with_leads)
         )
 
 

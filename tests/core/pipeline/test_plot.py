@@ -44,7 +44,7 @@ def test_the_cutter_of_a_deletion_within_another_one_is_on_the_path():
         for value in range(1, 21):
             derived_block = derived(program(block(points, comp, lookahead=Number(float(value)))))
             for segment in range(1, len(points)):
-                apart = derived_block.paths.loops[0].whole.points - cutter_at(derived_block, segment)
+                apart = derived_block.paths.loops[0].with_leads.points - cutter_at(derived_block, segment)
                 assert min(np.hypot(*apart.T)) < 1e-9
 
 
@@ -80,14 +80,14 @@ def test_the_best_path_has_a_cutter_only_for_segments_it_follows():
     pocket = load(example("pocket"))
     part = replace(pocket, parameters=replace(pocket.parameters, path=PathChoice.BEST))
     derived_block = derived(part)
-    numbers = {number for loop in derived_block.paths.loops for number in loop.whole.numbers.tolist()}
+    numbers = {number for loop in derived_block.paths.loops for number in loop.with_leads.numbers.tolist()}
     for segment in range(1, 12):
         assert (cutter_at(derived_block, segment) is not None) is (segment in numbers)
 
 
 def test_the_cutter_of_start_is_at_the_plunge():
     derived_block = derived(program(block(MID_SIDE_SQUARE, CutterComp.LEFT)))
-    assert cutter_at(derived_block, 0) == tuple(derived_block.paths.loops[0].whole.points[0].tolist())
+    assert cutter_at(derived_block, 0) == tuple(derived_block.paths.loops[0].with_leads.points[0].tolist())
 
 
 def test_the_whole_part_is_drawn_with_the_numbers_of_its_segments():

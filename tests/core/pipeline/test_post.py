@@ -117,8 +117,8 @@ def test_every_example_reads_back_or_is_refused_with_a_reason(example: Path, con
         return
     unit = part.program.unit
     tools = NO_TOOLS if control in ("klartext", "threeblock") else table(part.program, result.text)
-    wanted = [one.compensated.whole for each in part.blocks for one in each.paths.rough]
-    wanted += [each.paths.compensated.whole for each in part.blocks]
+    wanted = [one.compensated.with_leads for each in part.blocks for one in each.paths.rough]
+    wanted += [each.paths.compensated.with_leads for each in part.blocks]
     allowed = 0.006 + sum(note.lengths[0] for note in result.notes if note.code == "DIFFERS")
     for path in runs_of(result.text, control, tools, unit):
         assert any(apart(path, one) <= allowed and apart(one, path) <= allowed for one in wanted)
