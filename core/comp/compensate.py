@@ -78,16 +78,18 @@ def compensate_all(
         return tuple(replace(first, lookahead=lookahead) for lookahead in lookaheads)
     chain = offset(contour, side, radius)
     candidates = crossings(chain, max(lookaheads), closed=closed)
-    walked: dict[int, Compensated] = {}
+    by_tested_count: dict[int, Compensated] = {}
     for lookahead in lookaheads:
-        tested = candidates.count(lookahead)
-        if tested not in walked:
-            stages = replace(first, lookahead=lookahead, raw=chain.raw, tested=tested)
-            walked[tested] = _walked(stages, chain, candidates, blend, overlap)
-    return tuple(replace(walked[candidates.count(lookahead)], lookahead=lookahead) for lookahead in lookaheads)
+        tested_count = candidates.count(lookahead)
+        if tested_count not in by_tested_count:
+            stages = replace(first, lookahead=lookahead, raw=chain.raw, tested=tested_count)
+            by_tested_count[tested_count] = _path_at_lookahead(stages, chain, candidates, blend, overlap)
+    return tuple(replace(by_tested_count[candidates.count(lookahead)], lookahead=lookahead) for lookahead in lookaheads)
 
 
-def _walked(stages: Compensated, chain: RawChain, candidates: Candidates, blend: float, overlap: float) -> Compensated:
+def _path_at_lookahead(
+    stages: Compensated, chain: RawChain, candidates: Candidates, blend: float, overlap: float
+) -> Compensated:
     """Return the path at a look-ahead, after the stages that do not depend on it."""
     contour, side, closed = stages.contour, stages.side, stages.closed
     within, last_wins = candidates.within(stages.lookahead), closed and len(contour) == 2
@@ -123,7 +125,7 @@ def _is_point(piece: Piece) -> bool:
     return piece.length <= JOINED or (isinstance(piece, Arc) and piece.center == piece.end)
 
 
-_AT_ITS_START: Final = 2.0 * CLOSED
+MAX_CLOSING_GAP: Final = 2.0 * CLOSED
 """Millimeters: largest gap between the ends of a closed contour's path; a gap in the contour also turns a segment."""
 
 
@@ -133,7 +135,7 @@ def blend_in(path: Path, side: Side, blend: float) -> Path:
         return EMPTY
     first = path[0]
     along = complex(*first.direction_at(first.start))
-    start, center = _quarter(first.start, -along, along, side, blend)
+    start, center = _quarter_circle(first.start, -along, along, side, blend)
     return _arc(start, first.start, center, side, path.numbers[:1])
 
 
@@ -143,14 +145,14 @@ def blend_out(path: Path, side: Side, blend: float, overlap: float, *, closed: b
     If a closed contour's path ends where it starts, it runs `overlap` millimeters past the start before it leaves:
     it repeats its own first pieces, under their own numbers.
     """
-    again = past_start(path, overlap) if closed else EMPTY
-    whole = again if len(again) else path
-    if not len(whole) or blend <= 0.0:
-        return again
-    last = whole[-1]
+    overlap_path = past_start(path, overlap) if closed else EMPTY
+    last_path = overlap_path if len(overlap_path) else path
+    if not len(last_path) or blend <= 0.0:
+        return overlap_path
+    last = last_path[-1]
     along = complex(*last.direction_at(last.end))
-    end, center = _quarter(last.end, along, along, side, blend)
-    return joined((again, _arc(last.end, end, center, side, whole.numbers[-1:])))
+    end, center = _quarter_circle(last.end, along, along, side, blend)
+    return joined((overlap_path, _arc(last.end, end, center, side, last_path.numbers[-1:])))
 
 
 def _arc(start: Point, end: Point, center: Point, side: Side, number: Floats) -> Path:
@@ -165,16 +167,18 @@ def past_start(path: Path, overlap: float) -> Path:
     with a straight move to the path's start.
     """
     gap = abs(complex(*(path.points[-1] - path.points[0]).tolist())) if len(path) else inf
-    if overlap <= JOINED or gap > _AT_ITS_START:
+    if overlap <= JOINED or gap > MAX_CLOSING_GAP:
         return EMPTY
-    pieces, left = [], overlap
+    pieces, remaining = [], overlap
     for piece in path:
-        if left <= JOINED:
+        if remaining <= JOINED:
             break
         pieces.append(
-            piece if piece.length <= left + JOINED else replace(piece, end=piece.point_at(left / piece.length))
+            piece
+            if piece.length <= remaining + JOINED
+            else replace(piece, end=piece.point_at(remaining / piece.length))
         )
-        left -= piece.length
+        remaining -= piece.length
     numbers = path.numbers[: len(pieces)].tolist()
     if gap > JOINED:
         return Path.from_pieces([Line(path[-1].end, path[0].start), *pieces], [numbers[0], *numbers])
@@ -184,7 +188,7 @@ def past_start(path: Path, overlap: float) -> Path:
     return Path.from_pieces(pieces, numbers)
 
 
-def _quarter(at: Point, outer: complex, along: complex, side: Side, blend: float) -> tuple[Point, Point]:
+def _quarter_circle(at: Point, outer: complex, along: complex, side: Side, blend: float) -> tuple[Point, Point]:
     """Return the far end, toward `outer` from the center, and the center of the quarter circle at a path's end."""
     center = complex(*at) + blend * side.sign * 1j * along
     return point_of(center + blend * outer), point_of(center)

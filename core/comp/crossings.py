@@ -65,14 +65,16 @@ def crossings(chain: RawChain, lookahead: int, *, closed: bool) -> Candidates:
     """
     pieces = pieces_of(chain.raw)
     a, b = _near_pairs(chain, pieces, 2 * lookahead)
-    joint = (b - a == 2) & (chain.parts[b - 1] == RawPart.BRIDGE)
+    at_bridge = (b - a == 2) & (chain.parts[b - 1] == RawPart.BRIDGE)
     if closed:
-        tested = joint | (a > 0) | (b < len(chain) - 1)
-        a, b, joint = a[tested], b[tested], joint[tested]
-    met = meet_pieces(pieces, a, pieces, b)
-    at_joint, crossed = joint[met.pair], met.kinds[met.pair] == MeetingKind.CROSS
-    others = _chosen(met, a, b, crossed & ~at_joint)
-    return Candidates(_chosen(met, a, b, at_joint), others, chain.half_steps[others.b] - chain.half_steps[others.a])
+        tested = at_bridge | (a > 0) | (b < len(chain) - 1)
+        a, b, at_bridge = a[tested], b[tested], at_bridge[tested]
+    meetings = meet_pieces(pieces, a, pieces, b)
+    at_joint, crossed = at_bridge[meetings.pair], meetings.kinds[meetings.pair] == MeetingKind.CROSS
+    others = _chosen(meetings, a, b, crossed & ~at_joint)
+    return Candidates(
+        _chosen(meetings, a, b, at_joint), others, chain.half_steps[others.b] - chain.half_steps[others.a]
+    )
 
 
 def _chosen(met: Meetings, a: Rows, b: Rows, chosen: Flags) -> Crossings:

@@ -58,14 +58,14 @@ def _not_arcs(contour: Path) -> tuple[Finding, ...]:
     points, centers = as_complex(contour.points), as_complex(contour.centers)[rows]
     start, end = points[rows], points[rows + 1]
     first, last = np.abs(start - centers), np.abs(end - centers)
-    off = np.abs(first - last)
-    if off.max() <= JOINED and first.min() > 2.0 * JOINED:
+    difference = np.abs(first - last)
+    if difference.max() <= JOINED and first.min() > 2.0 * JOINED:
         return ()
-    pointed = (np.minimum(first, last) <= JOINED) & (np.abs(end - start) > JOINED)
-    bad = (off > ARC_RADII) | pointed
+    without_radius = (np.minimum(first, last) <= JOINED) & (np.abs(end - start) > JOINED)
+    bad = (difference > ARC_RADII) | without_radius
     text = "Radius {0} at start, {1} at end. Check X CENTER, Y CENTER."
     errors = _arcs_named("ARC_RADII", text, contour.numbers[rows], bad, first, last)
-    doubtful = (~bad & (off > JOINED)).nonzero()[0]
+    doubtful = (~bad & (difference > JOINED)).nonzero()[0]
     if not len(doubtful):
         return errors
     across = (start - centers)[doubtful].conj() * (end - centers)[doubtful]
@@ -135,12 +135,12 @@ def most_deleted_finding(contour: Path, pruned: Pruned) -> list[Finding]:
         return []
     rows = np.isin(contour.numbers, deleted)
     lengths = contour.lengths
-    erased = float(lengths[rows].sum())
-    if erased <= lengths.sum() / 2.0:
+    deleted_length = float(lengths[rows].sum())
+    if deleted_length <= lengths.sum() / 2.0:
         return []
-    what = f"LOOK-AHEAD deletes most of the part: {segment_list(deleted)}, {{value}} long."
-    text = f"{what} Press Space on LOOKAHEAD to find a value that keeps it."
-    return [Finding("LONG_WAY", Severity.WARNING, text, float(deleted[0]), value=erased)]
+    loss = f"LOOK-AHEAD deletes most of the part: {segment_list(deleted)}, {{value}} long."
+    text = f"{loss} Press Space on LOOKAHEAD to find a value that keeps it."
+    return [Finding("LONG_WAY", Severity.WARNING, text, float(deleted[0]), value=deleted_length)]
 
 
 def nothing_left(chain: RawChain, pruned: Pruned, *, closed: bool) -> Finding:
@@ -160,10 +160,10 @@ def nothing_left(chain: RawChain, pruned: Pruned, *, closed: bool) -> Finding:
 
 def segment_list(numbers: NDArray[np.float64]) -> str:
     """Return segment numbers as said on the shop floor: `segment 4`, `segments 2-3, 7`."""
-    whole = numbers.astype(int)
-    runs = np.split(whole, (np.diff(whole) != 1).nonzero()[0] + 1)
+    integers = numbers.astype(int)
+    runs = np.split(integers, (np.diff(integers) != 1).nonzero()[0] + 1)
     words = [f"{run[0]}-{run[-1]}" if len(run) > 1 else f"{run[0]}" for run in runs[:MAX_NAMED_PLACES]]
-    return ("segments " if len(whole) > 1 else "segment ") + ", ".join(words)
+    return ("segments " if len(integers) > 1 else "segment ") + ", ".join(words)
 
 
 def _named(code: str, text: str, numbers: Floats, at: Floats, values: Floats | None = None) -> list[Finding]:

@@ -37,12 +37,12 @@ class Pruned:
 
 class _Remainder(NamedTuple):
     """The rest of the chain's m pieces: from `low` to `high` (m,) millimeters along them, `high` infinite if the end is
-    untrimmed; the points `starts` (m,) where they start; `stands` (m,) is True for pieces that remain."""
+    untrimmed; the points `starts` (m,) where they start; `remains` (m,) is True for pieces that remain."""
 
     low: Floats
     high: Floats
     starts: Points
-    stands: Flags
+    remains: Flags
 
 
 def prune(chain: RawChain, joints: Crossings, others: Crossings, *, last_wins: bool) -> Pruned:
@@ -50,14 +50,14 @@ def prune(chain: RawChain, joints: Crossings, others: Crossings, *, last_wins: b
 
     With `last_wins` a joint takes the last point along the earlier piece (closed contours of two segments).
     """
-    again, wins = joints.b[1:] == joints.b[:-1], np.ones(len(joints), np.bool_)
-    (wins[:-1] if last_wins else wins[1:])[again] = False
+    same_joint, wins = joints.b[1:] == joints.b[:-1], np.ones(len(joints), np.bool_)
+    (wins[:-1] if last_wins else wins[1:])[same_joint] = False
     walk = _Walk(len(chain), joints.take(wins), joints, others)
     walk.run()
-    rest, met = walk.remainder(chain), np.array(walk.met, np.intp)
-    path, bridges = _pruned_path(chain, rest)
-    gone = np.frombuffer(walk.gone, np.bool_)
-    return Pruned(path, chain.parts[bridges[1]] >= RawPart.BRIDGE, bridges[0], _deletions(chain, others, met, gone))
+    remainder, deleting_rows = walk.remainder(chain), np.array(walk.deleting_rows, np.intp)
+    path, bridges, rows = _pruned_path(chain, remainder)
+    deletions = _deletions(chain, others, deleting_rows, np.frombuffer(walk.deleted, np.bool_))
+    return Pruned(path, chain.parts[rows] >= RawPart.BRIDGE, bridges, deletions)
 
 
 class _Walk:
@@ -77,8 +77,8 @@ class _Walk:
         self._joint_pieces: list[int] = joints.b.tolist()
         self._bridged: list[int] = []
         self._rejoined: list[int] = []
-        self.gone = bytearray(count)
-        self.met: list[int] = []
+        self.deleted = bytearray(count)
+        self.deleting_rows: list[int] = []
         """Rows of `others` that deleted something, in order."""
 
     def run(self) -> None:
@@ -87,7 +87,7 @@ class _Walk:
         The earlier piece then ends there, the later one starts there, and everything between is deleted.  A point at
         the very end of one piece and the very start of the other is not a crossing.
         """
-        low, high, gone, agenda, others = self._low, self._high, self.gone, self._agenda, self._others
+        low, high, deleted, agenda, others = self._low, self._high, self.deleted, self._agenda, self._others
         columns = others.b, others.a, others.along_a, others.along_b, others.a_ends, others.b_ends
         rows = zip(*(column.tolist() for column in columns), strict=True)
         piece, taken = -1, True
@@ -96,15 +96,15 @@ class _Walk:
                 self._settle(b)
                 piece, taken = b, False
             start, first, last = low[b], low[a], high[a]
-            if taken or gone[a] or along_b < start - ON_PATH:
+            if taken or deleted[a] or along_b < start - ON_PATH:
                 continue
             if along_a < first - ON_PATH or along_a > last + ON_PATH or (b_ends and along_a <= first + ON_PATH):
                 continue
             if along_b <= start + ON_PATH and (a_ends or along_a >= last - ON_PATH):
                 continue
             high[a], low[b], taken = along_a, along_b, True
-            gone[a + 1 : b] = b"\1" * (b - a - 1)
-            self.met.append(row)
+            deleted[a + 1 : b] = b"\1" * (b - a - 1)
+            self.deleting_rows.append(row)
             if high[b] < along_b - ON_PATH:
                 agenda.append(b + 2)
         self._settle(len(low))
@@ -131,54 +131,54 @@ class _Walk:
     def remainder(self, chain: RawChain) -> _Remainder:
         """Return what the walk leaves of the chain."""
         raw_starts, bridged = as_complex(chain.raw.points)[:-1], np.array(self._bridged, np.intp)
-        starts, stands = raw_starts.copy(), np.ones(len(chain), np.bool_)
-        starts[self._trims.b], stands[self._trims.b - 1] = self._trims.points, False
-        starts[bridged], stands[bridged - 1] = raw_starts[bridged], True
+        starts, remains = raw_starts.copy(), np.ones(len(chain), np.bool_)
+        starts[self._trims.b], remains[self._trims.b - 1] = self._trims.points, False
+        starts[bridged], remains[bridged - 1] = raw_starts[bridged], True
         starts[self._joints.b[self._rejoined]] = self._joints.points[self._rejoined]
-        starts[self._others.b[self.met]] = self._others.points[self.met]
-        stands &= ~np.frombuffer(self.gone, np.bool_)
-        return _Remainder(np.array(self._low), np.array(self._high), starts, stands)
+        starts[self._others.b[self.deleting_rows]] = self._others.points[self.deleting_rows]
+        remains &= ~np.frombuffer(self.deleted, np.bool_)
+        return _Remainder(np.array(self._low), np.array(self._high), starts, remains)
 
 
-def _pruned_path(chain: RawChain, rest: _Remainder) -> tuple[Path, tuple[Rows, Rows]]:
-    """Return the path of the remaining pieces, the rows of the bridges among them, and the rows of all."""
-    alive = rest.stands.nonzero()[0]
-    starts = np.append(rest.starts[alive], as_complex(chain.raw.points)[-1:])
-    real = _not_slivers(chain, rest, alive, starts)
-    alive, starts = alive[real], starts[np.append(real, True)]
-    bridges = alive[chain.parts[alive] >= RawPart.BRIDGE]
-    if not len(alive):
-        return EMPTY, (bridges, alive)
+def _pruned_path(chain: RawChain, remainder: _Remainder) -> tuple[Path, Rows, Rows]:
+    """Return the path of the remaining pieces, the rows of the bridges among them, and the rows of all of them."""
+    remaining = remainder.remains.nonzero()[0]
+    starts = np.append(remainder.starts[remaining], as_complex(chain.raw.points)[-1:])
+    has_length = _with_length(chain, remainder, remaining, starts)
+    remaining, starts = remaining[has_length], starts[np.append(has_length, True)]
+    bridges = remaining[chain.parts[remaining] >= RawPart.BRIDGE]
+    if not len(remaining):
+        return EMPTY, bridges, remaining
     raw = chain.raw
-    path = Path.of(coordinates(starts), raw.centers[alive], raw.turns[alive], raw.numbers[alive])
-    return path, (bridges, alive)
+    path = Path.of(coordinates(starts), raw.centers[remaining], raw.turns[remaining], raw.numbers[remaining])
+    return path, bridges, remaining
 
 
-def _not_slivers(chain: RawChain, rest: _Remainder, alive: Rows, starts: Points) -> Flags:
+def _with_length(chain: RawChain, remainder: _Remainder, remaining: Rows, starts: Points) -> Flags:
     """True for pieces that still have a length: an arc trimmed to a point must not become a full circle.
 
     An arc that remains a full turn within rounding gets equal ends in `starts`, and so stays a full circle.
     """
-    real = np.abs(starts[1:] - starts[:-1]) > JOINED
-    for row in (~real & (chain.raw.turns[alive] != 0)).nonzero()[0].tolist():
-        piece = int(alive[row])
-        length = min(float(rest.high[piece]), chain.raw[piece].length) - float(rest.low[piece])
+    has_length = np.abs(starts[1:] - starts[:-1]) > JOINED
+    for row in (~has_length & (chain.raw.turns[remaining] != 0)).nonzero()[0].tolist():
+        piece = int(remaining[row])
+        length = min(float(remainder.high[piece]), chain.raw[piece].length) - float(remainder.low[piece])
         if length > JOINED:
-            starts[row + 1], real[row] = starts[row], True
-    return real
+            starts[row + 1], has_length[row] = starts[row], True
+    return has_length
 
 
-def _deletions(chain: RawChain, others: Crossings, met: Rows, gone: Flags) -> Deletions:
-    """Return the deleted segments, each with the first event, a row in `met`, that spans it."""
-    if not len(met):
+def _deletions(chain: RawChain, others: Crossings, deleting_rows: Rows, is_deleted: Flags) -> Deletions:
+    """Return the deleted segments, each with the first event, a row in `deleting_rows`, that spans it."""
+    if not len(deleting_rows):
         return NO_DELETIONS
-    deleted = gone.nonzero()[0]
+    deleted = is_deleted.nonzero()[0]
     deleted = deleted[chain.half_steps[deleted] % 2 == 0]
-    a, b = others.a[met], others.b[met]
+    a, b = others.a[deleting_rows], others.b[deleting_rows]
     # events come in the order of b: the first that ends after a piece spans it, unless it also begins after it
     event = b.searchsorted(deleted, side="right")
     while (late := a[event] >= deleted).any():
         event[late] += 1
     numbers = chain.raw.numbers
     by = np.stack((numbers[a[event]], numbers[b[event]]), axis=1)
-    return Deletions(numbers[deleted], by, coordinates(others.points[met[event]]))
+    return Deletions(numbers[deleted], by, coordinates(others.points[deleting_rows[event]]))

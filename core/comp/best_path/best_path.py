@@ -55,55 +55,59 @@ def best_path(contour: Path, side: Side, radius: float, *, closed: bool) -> Best
     if not len(surface.path):
         return BestPath((), (), surface.findings)
     crossing = crosses_itself(surface.path, closed=closed)
-    findings = surface.findings if crossing is None else (*surface.findings, _crossing(crossing))
+    findings = surface.findings if crossing is None else (*surface.findings, _crossing_finding(crossing))
     untrimmed = raw_offset(surface.path, side, radius, closed=closed, crossing=crossing is not None)
     raw = trimmed(untrimmed, side.sign, radius)
     del untrimmed
-    cut = sliced(raw, side.sign)
-    if cut is None:
+    slices = sliced(raw, side.sign)
+    if slices is None:
         return BestPath((), (), (*findings, TANGLED))
     walls = Walls.of(surface.path)
     # the cutter is clear of the surface along all of a slice or nowhere; one that turns the wrong way is not clear
-    alive = (~cut.dead).nonzero()[0]
-    points, piece = cut.middles(raw, alive)
-    cut = cut.take(alive[walls.clear(points, raw.segment[piece], radius)])
-    made = stitch(raw, cut, side.sign, walls, radius)
-    return _best(raw, made, surface, findings)
+    candidates = (~slices.dead).nonzero()[0]
+    points, piece = slices.middles(raw, candidates)
+    slices = slices.take(candidates[walls.clear(points, raw.segment[piece], radius)])
+    stitched = stitch(raw, slices, side.sign, walls, radius)
+    return _best(raw, stitched, surface, findings)
 
 
-def _best(raw: RawOffset, made: StitchedSlices, surface: PreparedContour, findings: tuple[Finding, ...]) -> BestPath:
+def _best(
+    raw: RawOffset, stitched: StitchedSlices, surface: PreparedContour, findings: tuple[Finding, ...]
+) -> BestPath:
     """Return the best path: the loops longer than rounding, with their findings."""
-    walked = [(rows, ring) for rows, ring in chains(made) if not _is_rounding(made, rows)]
-    if len(walked) > MAX_LOOPS:
+    walked_chains = [(rows, ring) for rows, ring in chains(stitched) if not _is_rounding(stitched, rows)]
+    if len(walked_chains) > MAX_LOOPS:
         return BestPath((), (), (*findings, TANGLED))
-    loops = tuple(path_of_slices(raw, made, rows, surface.origin) for rows, _ in walked)
+    loops = tuple(path_of_slices(raw, stitched, rows, surface.origin) for rows, _ in walked_chains)
     if not loops:
         return BestPath((), (), (*findings, NO_PATH))
-    rows = np.concatenate([rows for rows, _ in walked])
-    notes = (*_joined(raw, made, rows, surface), *_broken(raw, made, rows, surface))
-    return BestPath(loops, tuple(ring for _, ring in walked), (*findings, *notes))
+    rows = np.concatenate([rows for rows, _ in walked_chains])
+    notes = (*_joined_gap_finding(raw, stitched, rows, surface), *_broken_path_finding(raw, stitched, rows, surface))
+    return BestPath(loops, tuple(ring for _, ring in walked_chains), (*findings, *notes))
 
 
-def _is_rounding(made: StitchedSlices, rows: Rows) -> bool:
+def _is_rounding(stitched: StitchedSlices, rows: Rows) -> bool:
     """True if these slices are so short that rounding made them; the limit is larger where it left gaps in them."""
-    return float(made.cut.size[rows].sum()) <= (WHISKER if (made.gaps[rows] > JOINED).any() else GOUGE)
+    return float(stitched.slices.size[rows].sum()) <= (WHISKER if (stitched.gaps[rows] > JOINED).any() else GOUGE)
 
 
-def _crossing(numbers: tuple[float, float]) -> Finding:
+def _crossing_finding(numbers: tuple[float, float]) -> Finding:
     a, b = numbers
     text = f"Segments {a:g} and {b:g} cross or touch: the best path takes every segment as a wall on both sides."
     return Finding("CROSSES_ITSELF", Severity.WARNING, text, a)
 
 
-def _joined(raw: RawOffset, made: StitchedSlices, rows: Rows, surface: PreparedContour) -> tuple[Finding, ...]:
+def _joined_gap_finding(
+    raw: RawOffset, stitched: StitchedSlices, rows: Rows, surface: PreparedContour
+) -> tuple[Finding, ...]:
     """Report the largest gap on the path that rounding left between neighbors' offsets and that was closed."""
-    cut, bridges = made.cut, made.gaps[rows]
-    until = cut.until[rows]
+    slices, bridges = stitched.slices, stitched.gaps[rows]
+    end_piece = slices.end_piece[rows]
     passed = np.zeros(len(raw) + 1)
-    np.add.at(passed, cut.piece[rows], 1.0)
-    np.add.at(passed, until + (cut.end[rows] >= raw.lengths[until] - JOINED), -1.0)
+    np.add.at(passed, slices.piece[rows], 1.0)
+    np.add.at(passed, end_piece + (slices.end[rows] >= raw.lengths[end_piece] - JOINED), -1.0)
     joints = np.where(np.cumsum(passed)[:-1] > 0.0, raw.gaps, 0.0)
-    joints[until] = np.maximum(joints[until], bridges)
+    joints[end_piece] = np.maximum(joints[end_piece], bridges)
     piece = int(np.argmax(joints))
     if joints[piece] <= JOINED:
         return ()
@@ -113,14 +117,18 @@ def _joined(raw: RawOffset, made: StitchedSlices, rows: Rows, surface: PreparedC
     return (Finding("BEST_JOINED", Severity.INFO, text, number, at=at, lengths=(gap, 0.0)),)
 
 
-def _broken(raw: RawOffset, made: StitchedSlices, rows: Rows, surface: PreparedContour) -> tuple[Finding, ...]:
+def _broken_path_finding(
+    raw: RawOffset, stitched: StitchedSlices, rows: Rows, surface: PreparedContour
+) -> tuple[Finding, ...]:
     """Warn about the first place where the path ends or begins although the cutter could go on."""
-    cut = made.cut
-    loose = rows[made.loose_end[rows] | made.loose_begin[rows]]
+    slices = stitched.slices
+    loose = rows[stitched.loose_end[rows] | stitched.loose_begin[rows]]
     if not len(loose):
         return ()
     row = int(loose[0])
-    node, piece = (cut.last[row], cut.until[row]) if made.loose_end[row] else (cut.first[row], cut.piece[row])
-    at = point_of(complex(cut.points[node]) + complex(*surface.origin))
+    node, piece = (
+        (slices.last[row], slices.end_piece[row]) if stitched.loose_end[row] else (slices.first[row], slices.piece[row])
+    )
+    at = point_of(complex(slices.points[node]) + complex(*surface.origin))
     text = "The best path does not close near X {x} Y {y}."
     return (Finding("BEST_BROKEN", Severity.WARNING, text, float(raw.numbers[piece]), at=at),)

@@ -55,11 +55,13 @@ def prepare_contour(contour: Path, radius: float, *, closed: bool) -> PreparedCo
     if not len(contour):
         return PreparedContour(EMPTY, np.zeros(2), (*findings, *comp_findings.contour_refusals(contour, radius, ())))
     origin = (contour.points.min(axis=0) + contour.points.max(axis=0)) / 2.0
-    path = _even(Path.of(contour.points - origin, contour.centers - origin, contour.turns, contour.numbers))
-    return PreparedContour(_closed(path) if closed else path, origin, findings)
+    path = _with_single_radii(
+        Path.of(contour.points - origin, contour.centers - origin, contour.turns, contour.numbers)
+    )
+    return PreparedContour(_ended_at_start(path) if closed else path, origin, findings)
 
 
-def _even(path: Path) -> Path:
+def _with_single_radii(path: Path) -> Path:
     """Return the path with one radius for each arc, which moves it nowhere by more than its two radii differ.
 
     An arc of more than half a turn whose center would move farther is first split in its middle, at the mean of its
@@ -68,13 +70,13 @@ def _even(path: Path) -> Path:
     rows = path.turns.nonzero()[0]
     points, centers = as_complex(path.points), as_complex(path.centers).copy()
     start, end, center, turns = points[rows], points[rows + 1], centers[rows], path.turns[rows]
-    centers[rows], apart = even_centers(start, end, center, turns)
-    if not apart.any():
+    centers[rows], slack = even_centers(start, end, center, turns)
+    if not slack.any():
         return path
-    large = (apart > 0.0) & (centers[rows] == center)
+    large = (slack > 0.0) & (centers[rows] == center)
     if large.any():
         angles = np.mod(np.angle((end - center) * (start - center).conj()) * turns, tau)
-        return _even(_halved(path, rows[large], angles[large]))
+        return _with_single_radii(_halved(path, rows[large], angles[large]))
     return Path(path.points, coordinates(centers), path.turns, path.numbers)
 
 
@@ -89,7 +91,7 @@ def _halved(path: Path, rows: Rows, angles: Floats) -> Path:
     return Path.of(coordinates(points), path.centers[twice], path.turns[twice], path.numbers[twice])
 
 
-def _closed(path: Path) -> Path:
+def _ended_at_start(path: Path) -> Path:
     """Return the path, made to end exactly at its start."""
     gap = float(np.abs(as_complex(path.points)[-1] - as_complex(path.points)[0]))
     if gap <= JOINED:
@@ -124,28 +126,28 @@ class Walls:
         `segments` (k,) are the pieces that the points were offset from: most points that are not clear are too near to
         a vertex close to that piece.
         """
-        good = _clear_of_vertices(points, segments, as_complex(self.path.points), radius)
-        rows = good.nonzero()[0]
+        clear = _clear_of_vertices(points, segments, as_complex(self.path.points), radius)
+        rows = clear.nonzero()[0]
         if len(rows):
-            spots = points[rows]
-            for i, j in near_pairs(point_boxes(spots), self.tree, radius):
-                good[rows[i[distance(self.pieces.take(j), spots[i]) < radius - CLEAR]]] = False
-        return good
+            candidates = points[rows]
+            for i, j in near_pairs(point_boxes(candidates), self.tree, radius):
+                clear[rows[i[distance(self.pieces.take(j), candidates[i]) < radius - CLEAR]]] = False
+        return clear
 
 
 def _clear_of_vertices(points: Points, segments: Rows, vertices: Points, radius: float) -> Flags:
     """True for points that are clear of the vertices 1, 2, 4, 8 ... segments ahead and back, until none is near."""
-    good = np.ones(len(points), np.bool_)
+    clear = np.ones(len(points), np.bool_)
     step, near = 1, True
     while near and step < len(vertices):
         near = False
         for shift in (step, -step):
-            known = np.minimum(np.maximum(segments + shift, 0), len(vertices) - 1)
-            apart = np.abs(points - vertices[known])
-            near |= bool((good & (apart < 2.0 * radius) & (known == segments + shift)).any())
-            good &= apart >= radius - CLEAR
+            rows = np.minimum(np.maximum(segments + shift, 0), len(vertices) - 1)
+            distances = np.abs(points - vertices[rows])
+            near |= bool((clear & (distances < 2.0 * radius) & (rows == segments + shift)).any())
+            clear &= distances >= radius - CLEAR
         step *= 2
-    return good
+    return clear
 
 
 def crosses_itself(path: Path, *, closed: bool) -> tuple[float, float] | None:
@@ -157,22 +159,22 @@ def crosses_itself(path: Path, *, closed: bool) -> tuple[float, float] | None:
     if len(circles) and len(path) > 1:
         row = int(circles[0])
         return float(path.numbers[row]), float(path.numbers[row - 1 if row else 1])
-    apart = _meet_next_only_at_joint(path)
+    only_at_joint = _meet_next_only_at_joint(path)
     pieces = piece_arrays(path)
     for i, j in near_pairs_within(pieces.boxes, 2.0 * ON_PATH):
         i, j = pieces.rows[i], pieces.rows[j]
-        known = apart[i] & (j == i + 1)
-        if closed and apart[-1]:
-            known |= j - i == len(path) - 1
-        i, j = i[~known], j[~known]
+        at_joint_only = only_at_joint[i] & (j == i + 1)
+        if closed and only_at_joint[-1]:
+            at_joint_only |= j - i == len(path) - 1
+        i, j = i[~at_joint_only], j[~at_joint_only]
         # among several crossings, report the one with the fewest segments between
         order = np.lexsort((i, j - i))
         i, j = i[order], j[order]
         met = meet(path, i, path, j)
-        hit = met.pair[~_at_joint(path, i[met.pair], j[met.pair], met.points)]
-        hit = np.concatenate((hit, (met.kinds == MeetingKind.OVERLAP).nonzero()[0]))
-        if len(hit):
-            return float(path.numbers[i[hit[0]]]), float(path.numbers[j[hit[0]]])
+        crossing_rows = met.pair[~_at_joint(path, i[met.pair], j[met.pair], met.points)]
+        crossing_rows = np.concatenate((crossing_rows, (met.kinds == MeetingKind.OVERLAP).nonzero()[0]))
+        if len(crossing_rows):
+            return float(path.numbers[i[crossing_rows[0]]]), float(path.numbers[j[crossing_rows[0]]])
     return None
 
 

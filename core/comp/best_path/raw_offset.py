@@ -93,12 +93,12 @@ class RawOffset:
 class Untrimmed:
     """The raw offset before its inside corners are cut; segment k of the surface has the `vertices` k and k + 1.
 
-    `order` (m,) is each piece's successor in its ring, -1 at an open end; `inside` (m,) marks an inside corner between
+    `successor` (m,) is the next piece in the ring, -1 at an open end; `inside` (m,) marks an inside corner between
     the two, `corner` (m,) marks corner arcs.
     """
 
     raw: RawOffset
-    order: Rows
+    successor: Rows
     inside: Flags
     corner: Flags
     vertices: Points
@@ -106,8 +106,8 @@ class Untrimmed:
 
 def renumbered(rows: Rows, keep: Flags) -> Rows:
     """Return the new indices of `rows` among the kept rows; -1 stays -1, and a dropped row becomes -1."""
-    place = np.append(np.where(keep, np.cumsum(keep) - 1, -1), -1)
-    return place[rows]
+    new_index = np.append(np.where(keep, np.cumsum(keep) - 1, -1), -1)
+    return new_index[rows]
 
 
 def raw_offset(surface: Path, side: Side, radius: float, *, closed: bool, crossing: bool) -> Untrimmed:
@@ -159,29 +159,36 @@ def _without_cusps(chain: RawChain, surface: Path, side: Side) -> RawChain:
     corners = corners[np.abs(across) <= JOINED]
     if not len(corners):
         return chain
-    there = chain.half_steps[corners].astype(np.intp) // 2
-    back = (there + 1) % len(surface)
+    incoming = chain.half_steps[corners].astype(np.intp) // 2
+    outgoing = (incoming + 1) % len(surface)
     first, last = points[corners] - centers[corners], points[corners + 1] - centers[corners]
     bend = first.conj() * last
     sizes, curvature = surface.lengths, surface.turns / np.where(surface.turns == 0, 1.0, surface.radii)
-    before = np.minimum(sizes[there], sizes[back]) / 4.0
-    aside = bend.imag / np.abs(bend) * before - (curvature[there] + curvature[back]) * before**2 / 2.0
+    distance_before_tip = np.minimum(sizes[incoming], sizes[outgoing]) / 4.0
+    left_of_incoming = (
+        bend.imag / np.abs(bend) * distance_before_tip
+        - (curvature[incoming] + curvature[outgoing]) * distance_before_tip**2 / 2.0
+    )
     parts = chain.parts.copy()
-    parts[corners[side.sign * aside > JOINED]] = RawPart.BRIDGE.value
+    parts[corners[side.sign * left_of_incoming > JOINED]] = RawPart.BRIDGE.value
     return RawChain(chain.raw, parts, chain.half_steps)
 
 
-def _both_sides(there: RawChain, back: RawChain, shift: int) -> RawChain:
+def _both_sides(first_side: RawChain, second_side: RawChain, shift: int) -> RawChain:
     """Join two chains with a bridge between them; the second one's half steps begin at `shift`."""
     path = Path.of(
-        np.concatenate((there.raw.points, back.raw.points)),
-        np.concatenate((there.raw.centers, there.raw.points[-1:], back.raw.centers)),
-        np.concatenate((there.raw.turns, np.zeros(1, np.int8), back.raw.turns)),
-        np.concatenate((there.raw.numbers, np.zeros(1), back.raw.numbers)),
+        np.concatenate((first_side.raw.points, second_side.raw.points)),
+        np.concatenate((first_side.raw.centers, first_side.raw.points[-1:], second_side.raw.centers)),
+        np.concatenate((first_side.raw.turns, np.zeros(1, np.int8), second_side.raw.turns)),
+        np.concatenate((first_side.raw.numbers, np.zeros(1), second_side.raw.numbers)),
     )
     bridge = np.full(1, RawPart.BRIDGE.value, np.uint8)
-    parts = np.concatenate((there.parts, bridge, back.parts))
-    return RawChain(path, parts, np.concatenate((there.half_steps, there.half_steps[-1:] + 1, back.half_steps + shift)))
+    parts = np.concatenate((first_side.parts, bridge, second_side.parts))
+    return RawChain(
+        path,
+        parts,
+        np.concatenate((first_side.half_steps, first_side.half_steps[-1:] + 1, second_side.half_steps + shift)),
+    )
 
 
 def _raw(chain: RawChain, radius: float, sides: int, vertices: Points, *, rings: tuple[int, ...]) -> Untrimmed:
@@ -195,9 +202,9 @@ def _raw(chain: RawChain, radius: float, sides: int, vertices: Points, *, rings:
     points = as_complex(path.points)
     start, end, turns = points[rows], points[rows + 1], path.turns[rows]
     center = as_complex(path.centers)[rows]
-    onward, order = _onward(rows, len(chain), rings)
-    gapless = (order >= 0) & (np.abs(start[order] - end) <= JOINED)
-    bridged = (order >= 0) & ~gapless & (chain.parts[onward[rows]] == RawPart.BRIDGE.value)
+    onward, successor = _onward(rows, len(chain), rings)
+    gapless = (successor >= 0) & (np.abs(start[successor] - end) <= JOINED)
+    bridged = (successor >= 0) & ~gapless & (chain.parts[onward[rows]] == RawPart.BRIDGE.value)
     raw = RawOffset(
         start,
         end,
@@ -205,30 +212,30 @@ def _raw(chain: RawChain, radius: float, sides: int, vertices: Points, *, rings:
         turns,
         path.numbers[rows],
         lengths(Pieces(start, end, center, turns)),
-        np.where(gapless, order, -1),
-        gapless & (rows[order] == onward[rows]),
+        np.where(gapless, successor, -1),
+        gapless & (rows[successor] == onward[rows]),
         np.zeros(len(rows)),
         (chain.half_steps[rows] >= 0) & (chain.half_steps[rows] < sides),
         chain.half_steps[rows].astype(np.intp) // 2,
         np.zeros(len(rows), np.bool_),
         np.zeros(len(rows), np.bool_),
     )
-    inside = bridged & (rows[order] == onward[onward[rows]])
-    return _smoothed(Untrimmed(raw, order, inside, chain.parts[rows] == RawPart.CORNER.value, vertices), radius)
+    inside = bridged & (rows[successor] == onward[onward[rows]])
+    return _smoothed(Untrimmed(raw, successor, inside, chain.parts[rows] == RawPart.CORNER.value, vertices), radius)
 
 
 def _onward(rows: Rows, count: int, rings: tuple[int, ...]) -> tuple[Rows, Rows]:
     """Return the row after each of `count` rows, around each ring; and for each of `rows` the next of them, or -1."""
     onward = np.minimum(np.arange(1, count + 1), count - 1)
-    order = np.arange(1, len(rows) + 1)
-    order[-1:] = -1
+    successor = np.arange(1, len(rows) + 1)
+    successor[-1:] = -1
     first = 0
     for last in rings:
         onward[last - 1] = first
         low, high = np.searchsorted(rows, (first, last)).tolist()
-        order[low:high][-1:] = low
+        successor[low:high][-1:] = low
         first = last + 1
-    return onward, order
+    return onward, successor
 
 
 def _smoothed(chain: Untrimmed, radius: float) -> Untrimmed:
@@ -237,45 +244,49 @@ def _smoothed(chain: Untrimmed, radius: float) -> Untrimmed:
     They cross there at so small an angle that no formula finds the point.  The middle of the gap is off either
     offset by the gap squared over eight radii: no more than ON_PATH (BEST_PATH.md, "Near-tangent joints").
     """
-    before, between, after = _near_tangent(chain)
+    before, corner_arcs, after = _near_tangent(chain)
     raw = chain.raw
     gaps = np.abs(raw.start[after] - raw.end[before])
-    bend = np.where(raw.turns == 0, radius, np.minimum(np.abs(raw.start - raw.center), radius))
-    long = (raw.lengths > 4.0 * CROWDED) & ~chain.corner & (raw.start != raw.end)
-    fits = long[before] & long[after] & (gaps**2 <= 8.0 * ON_PATH * np.minimum(bend[before], bend[after]))
-    before, between, after, gaps = before[fits], between[fits], after[fits], gaps[fits]
+    radii = np.where(raw.turns == 0, radius, np.minimum(np.abs(raw.start - raw.center), radius))
+    long_enough = (raw.lengths > 4.0 * CROWDED) & ~chain.corner & (raw.start != raw.end)
+    joinable = (
+        long_enough[before] & long_enough[after] & (gaps**2 <= 8.0 * ON_PATH * np.minimum(radii[before], radii[after]))
+    )
+    before, corner_arcs, after, gaps = before[joinable], corner_arcs[joinable], after[joinable], gaps[joinable]
     if not len(before):
         return chain
     start, end, size = raw.start.copy(), raw.end.copy(), raw.lengths.copy()
     start[after] = end[before] = (raw.end[before] + raw.start[after]) / 2.0
     moved = np.concatenate((before, after))
     size[moved] = lengths(Pieces(start, end, raw.center, raw.turns).take(moved))
-    missed, following, smooth = raw.gaps.copy(), raw.following.copy(), raw.smooth.copy()
-    missed[before], following[before], smooth[before] = gaps, after, True
-    order, inside = chain.order.copy(), chain.inside.copy()
-    order[before], inside[before] = after, False
+    gap_of_piece, following, smooth = raw.gaps.copy(), raw.following.copy(), raw.smooth.copy()
+    gap_of_piece[before], following[before], smooth[before] = gaps, after, True
+    successor, inside = chain.successor.copy(), chain.inside.copy()
+    successor[before], inside[before] = after, False
     keep = np.ones(len(raw), np.bool_)
-    keep[between[between >= 0]] = False
-    raw = replace(raw, start=start, end=end, lengths=size, following=following, smooth=smooth, gaps=missed)
-    return Untrimmed(raw.take(keep), renumbered(order[keep], keep), inside[keep], chain.corner[keep], chain.vertices)
+    keep[corner_arcs[corner_arcs >= 0]] = False
+    raw = replace(raw, start=start, end=end, lengths=size, following=following, smooth=smooth, gaps=gap_of_piece)
+    return Untrimmed(
+        raw.take(keep), renumbered(successor[keep], keep), inside[keep], chain.corner[keep], chain.vertices
+    )
 
 
 def _near_tangent(chain: Untrimmed) -> tuple[Rows, Rows, Rows]:
     """Return pieces that end within CROWDED of the next one, the tiny corner arc between or -1, and the next ones."""
-    raw, order = chain.raw, chain.order
-    inside = (chain.inside & (np.abs(raw.start[order] - raw.end) <= CROWDED)).nonzero()[0]
+    raw, successor = chain.raw, chain.successor
+    inside = (chain.inside & (np.abs(raw.start[successor] - raw.end) <= CROWDED)).nonzero()[0]
     corners = (chain.corner & raw.smooth & (raw.lengths <= CROWDED)).nonzero()[0]
     previous = np.full(len(raw), -1)
-    previous[order[order >= 0]] = (order >= 0).nonzero()[0]
+    previous[successor[successor >= 0]] = (successor >= 0).nonzero()[0]
     corners = corners[(previous[corners] >= 0) & raw.smooth[previous[corners]]]
     before = np.concatenate((previous[corners], inside))
     between = np.concatenate((corners, np.full(len(inside), -1)))
-    after = np.concatenate((order[corners], order[inside]))
+    after = np.concatenate((successor[corners], successor[inside]))
     apart = before != after
     return before[apart], between[apart], after[apart]
 
 
-_INSIDE: Final = 1e-6
+_CERTAINLY_INSIDE_SHARE: Final = 1e-6
 """A vertex is certainly inside if it is nearer than the radius by more than this share of it, and than 2 CROWDED.
 
 The cuts thus end well away from every place where the path may turn, and are never mistaken for one.
@@ -293,87 +304,87 @@ class _Remainder:
 def trimmed(chain: Untrimmed, sign: int, radius: float) -> RawOffset:
     """Return the raw offset without the parts certainly nearer to the surface than `radius`; `sign` +1 is LEFT."""
     raw = chain.raw
-    rest = _Remainder(np.zeros(len(raw)), raw.lengths.copy())
-    corners, meets = _mitered(chain, rest, sign, radius)
-    before = _Remainder(rest.low.copy(), rest.high.copy())
-    _cut_inside(chain, rest, radius)
-    cut_low, cut_high = rest.low > before.low, rest.high < before.high
+    remainder = _Remainder(np.zeros(len(raw)), raw.lengths.copy())
+    corners, meets = _mitered(chain, remainder, sign, radius)
+    before = _Remainder(remainder.low.copy(), remainder.high.copy())
+    _cut_inside(chain, remainder, radius)
+    cut_low, cut_high = remainder.low > before.low, remainder.high < before.high
     if not len(corners) and not cut_low.any() and not cut_high.any():
         return raw
-    return _rebuilt(chain, rest, (corners, meets), cut_low, cut_high)
+    return _rebuilt(chain, remainder, (corners, meets), cut_low, cut_high)
 
 
-def _mitered(chain: Untrimmed, rest: _Remainder, sign: int, radius: float) -> tuple[Rows, Points]:
-    """Cut `rest` at inside corners of two lines that meet; return the rows of the first lines and the points.
+def _mitered(chain: Untrimmed, remainder: _Remainder, sign: int, radius: float) -> tuple[Rows, Points]:
+    """Cut `remainder` at inside corners of two lines that meet; return the rows of the first lines and the points.
 
     If three offset lines meet in nearly one place, the corner is left to the general rule.
     """
-    raw, order = chain.raw, chain.order
+    raw, successor = chain.raw, chain.successor
     rows = (chain.inside & (raw.turns == 0)).nonzero()[0]
-    rows = rows[raw.turns[order[rows]] == 0]
-    after = order[rows]
+    rows = rows[raw.turns[successor[rows]] == 0]
+    after = successor[rows]
     unit = (raw.end[rows] - raw.start[rows]) / raw.lengths[rows]
     bend = unit.conj() * (raw.end[after] - raw.start[after]) / raw.lengths[after]
-    short = radius * sign * bend.imag
-    room = (1.0 + bend.real) * np.minimum(raw.lengths[rows], raw.lengths[after])
-    fits = (short > 0.0) & (short <= room)
-    rows, after, unit = rows[fits], after[fits], unit[fits]
-    short = short[fits] / (1.0 + bend.real[fits])
-    rest.high[rows] -= short
-    rest.low[after] = short
-    crowded = np.abs(rest.high - rest.low) <= CROWDED
-    lost = crowded[rows] | crowded[after]
-    if lost.any():
-        rest.high[rows[lost]], rest.low[after[lost]] = raw.lengths[rows[lost]], 0.0
-        rows, unit, short = rows[~lost], unit[~lost], short[~lost]
-    return rows, raw.end[rows] - short * unit
+    cut_length = radius * sign * bend.imag
+    available = (1.0 + bend.real) * np.minimum(raw.lengths[rows], raw.lengths[after])
+    within = (cut_length > 0.0) & (cut_length <= available)
+    rows, after, unit = rows[within], after[within], unit[within]
+    cut_length = cut_length[within] / (1.0 + bend.real[within])
+    remainder.high[rows] -= cut_length
+    remainder.low[after] = cut_length
+    crowded = np.abs(remainder.high - remainder.low) <= CROWDED
+    ambiguous = crowded[rows] | crowded[after]
+    if ambiguous.any():
+        remainder.high[rows[ambiguous]], remainder.low[after[ambiguous]] = raw.lengths[rows[ambiguous]], 0.0
+        rows, unit, cut_length = rows[~ambiguous], unit[~ambiguous], cut_length[~ambiguous]
+    return rows, raw.end[rows] - cut_length * unit
 
 
-def _cut_inside(chain: Untrimmed, rest: _Remainder, radius: float) -> None:
-    """Cut from `rest` what lies in circles about vertices ahead and back, at growing distance until none is near."""
-    limit = radius - max(_INSIDE * radius, 2.0 * CROWDED)
+def _cut_inside(chain: Untrimmed, remainder: _Remainder, radius: float) -> None:
+    """Cut off what lies in circles about vertices ahead and back, at growing distance until none is near."""
+    limit = radius - max(_CERTAINLY_INSIDE_SHARE * radius, 2.0 * CROWDED)
     step, near = 1, limit > 0.0
     while near and step < len(chain.vertices):
         near = False
         segment = chain.raw.segment
         for rows in (segment + 1 + step, segment + chain.corner - step):
-            known = np.minimum(np.maximum(rows, 0), len(chain.vertices) - 1)
-            spots = chain.vertices[known]
-            near |= bool(((np.abs(spots - chain.raw.start) < 2.0 * radius) & (known == rows)).any())
-            _cut(chain.raw, rest, spots, limit)
+            vertices = np.minimum(np.maximum(rows, 0), len(chain.vertices) - 1)
+            places = chain.vertices[vertices]
+            near |= bool(((np.abs(places - chain.raw.start) < 2.0 * radius) & (vertices == rows)).any())
+            _cut(chain.raw, remainder, places, limit)
         step *= 2
 
 
-def _cut(raw: RawOffset, rest: _Remainder, spots: Points, limit: float) -> None:
+def _cut(raw: RawOffset, remainder: _Remainder, places: Points, limit: float) -> None:
     """Cut off both ends of all pieces where they are within `limit` of their spots."""
-    near = (np.abs(spots - raw.start) < limit + raw.lengths) & (rest.low < rest.high)
-    for kind, within in ((raw.turns == 0, _within_lines), (raw.turns != 0, _within_arcs)):
-        rows = (near & kind).nonzero()[0]
+    near = (np.abs(places - raw.start) < limit + raw.lengths) & (remainder.low < remainder.high)
+    for of_kind, within in ((raw.turns == 0, _within_lines), (raw.turns != 0, _within_arcs)):
+        rows = (near & of_kind).nonzero()[0]
         if not len(rows):
             continue
-        begin, end = within(raw, rows, spots[rows], limit)
-        low, high = rest.low[rows], rest.high[rows]
+        begin, end = within(raw, rows, places[rows], limit)
+        low, high = remainder.low[rows], remainder.high[rows]
         at_low, at_high = (begin <= low) & (end > low), (end >= high) & (begin < high)
-        rest.low[rows[at_low]] = end[at_low]
-        rest.high[rows[at_high]] = begin[at_high]
+        remainder.low[rows[at_low]] = end[at_low]
+        remainder.high[rows[at_high]] = begin[at_high]
 
 
-def _within_lines(raw: RawOffset, rows: Rows, spots: Points, limit: float) -> tuple[Floats, Floats]:
+def _within_lines(raw: RawOffset, rows: Rows, places: Points, limit: float) -> tuple[Floats, Floats]:
     """Return the interval along lines in which points are within `limit` of spots; NaN if there is none."""
     unit = (raw.end[rows] - raw.start[rows]) / raw.lengths[rows]
-    foot = unit.conj() * (spots - raw.start[rows])
+    foot = unit.conj() * (places - raw.start[rows])
     square = limit * limit - foot.imag * foot.imag
     half = np.sqrt(np.where(square > 0.0, square, np.nan))
     return foot.real - half, foot.real + half
 
 
-def _within_arcs(raw: RawOffset, rows: Rows, spots: Points, limit: float) -> tuple[Floats, Floats]:
+def _within_arcs(raw: RawOffset, rows: Rows, places: Points, limit: float) -> tuple[Floats, Floats]:
     """Return the same for arcs, modulo full turns the one nearest to the arc's middle; NaN for an arc's own center."""
-    arm, spokes = raw.start[rows] - raw.center[rows], spots - raw.center[rows]
-    radius, apart = np.abs(arm), np.abs(spokes)
-    off_center, off = apart > JOINED, apart - radius
+    arm, spokes = raw.start[rows] - raw.center[rows], places - raw.center[rows]
+    radius, distance = np.abs(arm), np.abs(spokes)
+    off_center, beyond = distance > JOINED, distance - radius
     # use the sine of half the angle: the cosine for a large arc differs from 1 by less than rounding
-    square = (limit - off) * (limit + off) / (4.0 * radius * np.where(off_center, apart, 1.0))
+    square = (limit - beyond) * (limit + beyond) / (4.0 * radius * np.where(off_center, distance, 1.0))
     half = 2.0 * np.arcsin(np.sqrt(np.where(off_center & (square > 0.0), np.minimum(square, 1.0), np.nan)))
     middle = raw.lengths[rows] / radius / 2.0
     angle = np.angle(arm.conj() * spokes) * raw.turns[rows] - middle
@@ -382,24 +393,24 @@ def _within_arcs(raw: RawOffset, rows: Rows, spots: Points, limit: float) -> tup
 
 
 def _rebuilt(
-    chain: Untrimmed, rest: _Remainder, corners: tuple[Rows, Points], cut_low: Flags, cut_high: Flags
+    chain: Untrimmed, remainder: _Remainder, corners: tuple[Rows, Points], cut_low: Flags, cut_high: Flags
 ) -> RawOffset:
     """Shorten the raw pieces, drop those of which nothing remains, and mark their neighbors' ends as blunt."""
     raw, (rows, meets) = chain.raw, corners
     following, smooth = raw.following.copy(), raw.smooth.copy()
-    following[rows], smooth[rows] = chain.order[rows], True
-    gone = rest.high - rest.low <= np.where(cut_low | cut_high, JOINED, -CROWDED)
+    following[rows], smooth[rows] = chain.successor[rows], True
+    vanished = remainder.high - remainder.low <= np.where(cut_low | cut_high, JOINED, -CROWDED)
     start, end = raw.start.copy(), raw.end.copy()
-    start[chain.order[rows]], end[rows] = meets, meets
-    start[cut_low] = raw.at(cut_low.nonzero()[0], rest.low[cut_low])
-    end[cut_high] = raw.at(cut_high.nonzero()[0], rest.high[cut_high])
+    start[chain.successor[rows]], end[rows] = meets, meets
+    start[cut_low] = raw.at(cut_low.nonzero()[0], remainder.low[cut_low])
+    end[cut_high] = raw.at(cut_high.nonzero()[0], remainder.high[cut_high])
     joined = (following >= 0).nonzero()[0]
     after = following[joined]
-    apart = gone[joined] | cut_high[joined] | gone[after] | cut_low[after]
+    separated = vanished[joined] | cut_high[joined] | vanished[after] | cut_low[after]
     blunt_start, blunt_end = cut_low, cut_high
-    blunt_end[joined[apart]], blunt_start[after[apart]] = True, True
-    following[joined[apart]], smooth[joined[apart]] = -1, False
-    size = rest.high - rest.low
+    blunt_end[joined[separated]], blunt_start[after[separated]] = True, True
+    following[joined[separated]], smooth[joined[separated]] = -1, False
+    size = remainder.high - remainder.low
     raw = replace(raw, start=start, end=end, lengths=size, following=following, smooth=smooth)
     raw = replace(raw, blunt_start=blunt_start, blunt_end=blunt_end)
-    return raw.take(~gone) if gone.any() else raw
+    return raw.take(~vanished) if vanished.any() else raw

@@ -54,16 +54,16 @@ def _unfollowed(control: PieceArrays, loop: PieceArrays, limit: float) -> list[t
     stations = loop.stations
     first, last = [np.zeros(1), stations[-1:]], [np.zeros(1), stations[-1:]]
     for i, j in near_pairs(loop.boxes, control.boxes, 2.0 * limit):
-        alike = loop.arcs[i] == control.arcs[j]
-        i, j = i[alike], j[alike]
+        same_kind = loop.arcs[i] == control.arcs[j]
+        i, j = i[same_kind], j[same_kind]
         piece, move = loop.take(i), control.take(j)
         for begin, end in _abreast(piece, move):
             begin, end = (np.minimum(np.maximum(along, 0.0), piece.length) for along in (begin, end))
-            on = end > begin
+            followed = end > begin
             for along in (begin, (begin + end) / 2.0, end):
-                on &= distance(move, at(piece, along / piece.length)) <= limit
-            first.append((stations[i] + begin)[on])
-            last.append((stations[i] + end)[on])
+                followed &= distance(move, at(piece, along / piece.length)) <= limit
+            first.append((stations[i] + begin)[followed])
+            last.append((stations[i] + end)[followed])
     begin, end = np.concatenate(first), np.concatenate(last)
     order = np.argsort(begin, kind="stable")
     begin, reached = begin[order], np.maximum.accumulate(end[order])
@@ -77,10 +77,10 @@ def _abreast(piece: PieceArrays, move: PieceArrays) -> Iterator[tuple[Floats, Fl
     entry = np.where(move.turn == piece.turn, move.start, move.end)
     begin = traveled(piece, entry - piece.center) * piece.radius
     end = begin + move.angle * piece.radius
-    once = np.where(piece.arcs, tau * piece.radius, 0.0)
+    full_turn = np.where(piece.arcs, tau * piece.radius, 0.0)
     begin, end = np.where(piece.arcs, begin, np.minimum(*ends)), np.where(piece.arcs, end, np.maximum(*ends))
     yield begin, end
-    yield begin - once, end - once
+    yield begin - full_turn, end - full_turn
 
 
 def _part(path: Path, loop: PieceArrays, first: float, last: float) -> Path:

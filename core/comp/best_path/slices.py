@@ -70,11 +70,11 @@ def _pairs(raw: RawOffset) -> Iterator[tuple[Rows, Rows]]:
     Smoothly joined pieces meet only at their joint, unless together they turn once around in one direction.
     """
     box, side, outline = boxes(raw.pieces), raw.side.nonzero()[0], (~raw.side).nonzero()[0]
-    apart = _meet_next_only_at_joint(raw)
-    among = ((side[i], side[j]) for i, j in near_pairs_within(box[:, side], 4.0 * ON_PATH))
-    across = ((side[i], outline[j]) for i, j in near_pairs(box[:, side], box[:, outline], 4.0 * ON_PATH))
-    for i, j in chain(among, across):
-        keep = ~((apart[i] & (raw.following[i] == j)) | (apart[j] & (raw.following[j] == i)))
+    only_at_joint = _meet_next_only_at_joint(raw)
+    of_sides = ((side[i], side[j]) for i, j in near_pairs_within(box[:, side], 4.0 * ON_PATH))
+    with_outline = ((side[i], outline[j]) for i, j in near_pairs(box[:, side], box[:, outline], 4.0 * ON_PATH))
+    for i, j in chain(of_sides, with_outline):
+        keep = ~((only_at_joint[i] & (raw.following[i] == j)) | (only_at_joint[j] & (raw.following[j] == i)))
         yield i[keep], j[keep]
 
 
@@ -83,10 +83,10 @@ def _meet_next_only_at_joint(raw: RawOffset) -> Flags:
     arm = np.abs(raw.start - raw.center)
     swept = np.where(raw.turns == 0, 0.0, raw.lengths / np.where(raw.turns == 0, 1.0, arm))
     after = raw.following
-    apart = swept + swept[after] < _ALMOST_FULL_TURN
-    apart |= (raw.turns * raw.turns[after] <= 0) & (np.maximum(swept, swept[after]) < NOT_WHOLE_TURN)
-    apart &= raw.smooth
-    return apart
+    only_at_joint = swept + swept[after] < _ALMOST_FULL_TURN
+    only_at_joint |= (raw.turns * raw.turns[after] <= 0) & (np.maximum(swept, swept[after]) < NOT_WHOLE_TURN)
+    only_at_joint &= raw.smooth
+    return only_at_joint
 
 
 def _concatenated(parts: list[Intersections]) -> Intersections:
@@ -108,22 +108,26 @@ def _overlaps(raw: RawOffset, i: Rows, j: Rows) -> Intersections:
     parts = []
     for a, b in ((i, j), (j, i)):
         for ends, along in ((raw.start[b], np.zeros(len(b))), (raw.end[b], raw.lengths[b])):
-            at = raw.along(a, ends)
-            on = ((at >= -JOINED) & (at <= raw.lengths[a] + JOINED)).nonzero()[0]
-            parts.append(Intersections(a[on], b[on], at[on], along[on], ends[on], np.zeros(len(on))))
+            along_other = raw.along(a, ends)
+            inside = ((along_other >= -JOINED) & (along_other <= raw.lengths[a] + JOINED)).nonzero()[0]
+            parts.append(
+                Intersections(
+                    a[inside], b[inside], along_other[inside], along[inside], ends[inside], np.zeros(len(inside))
+                )
+            )
     return _concatenated(parts)
 
 
 @dataclass(frozen=True, eq=False, slots=True)
 class Slices:
-    """s slices in order of travel: from `begin` mm along `piece` to `end` mm along `until` (s,), `size` mm long.
+    """s slices in order of travel: from `begin` mm along `piece` to `end` mm along `end_piece` (s,), `size` mm long.
 
     They run from node `first` to node `last` (s,).  `dead` (s,) marks slices that turn the wrong way or are blunt at
     one end.  `points` are the nodes' positions; `outer` marks the nodes at which an outline piece is involved.
     """
 
     piece: Rows
-    until: Rows
+    end_piece: Rows
     begin: Floats
     end: Floats
     size: Floats
@@ -138,19 +142,19 @@ class Slices:
 
     def take(self, rows: Rows) -> Slices:
         """Return the slices of these rows, with all nodes."""
-        names = ("piece", "until", "begin", "end", "size", "first", "last", "dead")
+        names = ("piece", "end_piece", "begin", "end", "size", "first", "last", "dead")
         columns = {name: getattr(self, name)[rows] for name in names}
         return Slices(**columns, points=self.points, outer=self.outer)
 
     def middles(self, raw: RawOffset, rows: Rows) -> tuple[Points, Rows]:
         """Return the points halfway along slices, and the pieces that these lie on."""
         piece, along = self.piece[rows], (self.begin[rows] + self.end[rows]) / 2.0
-        several = (piece != self.until[rows]).nonzero()[0]
+        several = (piece != self.end_piece[rows]).nonzero()[0]
         if len(several):
             part = rows[several]
             traveled = np.cumsum(raw.lengths)
             half = traveled[piece[several]] - raw.lengths[piece[several]] + self.begin[part] + self.size[part] / 2.0
-            inner = np.clip(np.searchsorted(traveled, half), piece[several], self.until[part])
+            inner = np.clip(np.searchsorted(traveled, half), piece[several], self.end_piece[part])
             piece[several] = inner
             along[several] = np.clip(half - traveled[inner] + raw.lengths[inner], 0.0, raw.lengths[inner])
         return raw.at(piece, along), piece
@@ -191,14 +195,14 @@ class _Stations(NamedTuple):
 
 def sliced(raw: RawOffset, sign: int) -> Slices | None:
     """Cut the side pieces at all self-intersections; return None if there are too many for a real part."""
-    met = _self_intersections(raw, sign)
-    if met is None:
+    meetings = _self_intersections(raw, sign)
+    if meetings is None:
         return None
     strands = _strands(raw)
-    points, outer = _nodes(raw, met, strands)
-    stations = _stations(raw, met, 2 * len(strands.heads))
-    del met
-    twin, other = stations.of(~raw.side).twins()
+    points, outer = _nodes(raw, meetings, strands)
+    stations = _stations(raw, meetings, 2 * len(strands.heads))
+    del meetings
+    first_twin, second_twin = stations.of(~raw.side).twins()
     stations = stations.of(raw.side)
     head = np.arange(len(strands.heads)) + np.searchsorted(stations.piece, strands.heads)
     at = np.arange(len(stations.piece)) + np.searchsorted(strands.heads, stations.piece, side="right")
@@ -207,17 +211,17 @@ def sliced(raw: RawOffset, sign: int) -> Slices | None:
     piece[head], first[head] = strands.heads, np.arange(len(head))
     piece[at], begin[at], first[at] = stations.piece, stations.along, stations.node
     tail = np.append(head[1:], count)[: len(head)] - 1
-    until, end, last = next_in_ring(piece), next_in_ring(begin), next_in_ring(first)
-    until[tail], end[tail], last[tail] = strands.tails, raw.lengths[strands.tails], strands.ends
+    end_piece, end, last = next_in_ring(piece), next_in_ring(begin), next_in_ring(first)
+    end_piece[tail], end[tail], last[tail] = strands.tails, raw.lengths[strands.tails], strands.ends
     dead = np.zeros(count, np.bool_)
     dead[at[stations.turn > 0.0]] = True
     dead[at[stations.turn < 0.0] - 1] = True
     dead[head] |= raw.blunt_start[strands.heads]
     dead[tail] |= raw.blunt_end[strands.tails]
-    size = _sizes(raw, piece, begin, until, end)
-    cut = Slices(piece, until, begin, end, size, first, last, dead, points, outer)
-    whole = (raw.start[strands.heads] == raw.end[strands.tails]).nonzero()[0]
-    return _welded(cut, np.concatenate((twin, whole)), np.concatenate((other, strands.ends[whole])))
+    size = _sizes(raw, piece, begin, end_piece, end)
+    cut = Slices(piece, end_piece, begin, end, size, first, last, dead, points, outer)
+    rings = (raw.start[strands.heads] == raw.end[strands.tails]).nonzero()[0]
+    return _welded(cut, np.concatenate((first_twin, rings)), np.concatenate((second_twin, strands.ends[rings])))
 
 
 def _strands(raw: RawOffset) -> _Strands:
@@ -245,10 +249,10 @@ def _stations(raw: RawOffset, met: Intersections, nodes: int) -> _Stations:
     return _Stations(piece, along, node[order], turn[order])
 
 
-def _sizes(raw: RawOffset, piece: Rows, begin: Floats, until: Rows, end: Floats) -> Floats:
+def _sizes(raw: RawOffset, piece: Rows, begin: Floats, end_piece: Rows, end: Floats) -> Floats:
     """Return the (s,) lengths of slices, as a difference along the piece if a slice lies on a single one."""
     traveled = np.cumsum(raw.lengths) - raw.lengths
-    return np.where(piece == until, end - begin, (traveled[until] + end) - (traveled[piece] + begin))
+    return np.where(piece == end_piece, end - begin, (traveled[end_piece] + end) - (traveled[piece] + begin))
 
 
 def _nodes(raw: RawOffset, met: Intersections, strands: _Strands) -> tuple[Points, Flags]:

@@ -119,5 +119,5 @@ def test_any_number_of_tiny_slices_in_a_row_that_lead_nowhere_is_taken_away(coun
     points, outer = np.append(0.0, ends) + 5.0j, np.zeros(count + 2, np.bool_)
     cut = Slices(piece, piece, ends - size, ends, size, row, row + 1, never, points, outer)
     made = stitch(raw, cut, 1, Walls.of(surface), 5.0)
-    assert made.cut.size.tolist() == [10.0]
+    assert made.slices.size.tolist() == [10.0]
     assert (made.following.tolist(), made.loose_end.tolist(), made.loose_begin.tolist()) == ([-1], [True], [True])
