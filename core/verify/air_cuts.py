@@ -17,7 +17,7 @@ from core.geometry.path import Flags, Path, Rows
 from core.geometry.piece import Point, point_of
 from core.geometry.piece_arrays import at, batches_by_kind, direction, piece_arrays
 from core.tolerance import ON_PATH, STOCK
-from core.verify.pairs import Pairs, along, keeping, measurable, pairs_of, rounding_of
+from core.verify.pairs import Pairs, measurable, near_ends_and_middle, pairs_of, piece_within, rounding_of
 from core.verify.uncut import MAX_POINT_LENGTH, gaps_of
 
 MAX_PARALLEL_SINE: Final = 1e-6
@@ -43,11 +43,11 @@ class AirCut:
     farthest: Point
 
 
-def loose(pairs: Pairs, radius: float) -> tuple[int, ...]:
+def may_cut_air(pairs: Pairs, radius: float) -> tuple[int, ...]:
     """Return the rows of pieces without a single wall that is within the radius of both ends and the middle."""
-    held = np.zeros(len(pairs.pieces), np.bool_)
-    held[pairs.i[keeping(pairs, radius)]] = True
-    return tuple(pairs.pieces.rows[~held].tolist())
+    near = np.zeros(len(pairs.pieces), np.bool_)
+    near[pairs.i[near_ends_and_middle(pairs, radius)]] = True
+    return tuple(pairs.pieces.rows[~near].tolist())
 
 
 def air_cuts(surface: Path, radius: float, center: Path) -> tuple[AirCut, ...]:
@@ -66,15 +66,17 @@ def air_cuts(surface: Path, radius: float, center: Path) -> tuple[AirCut, ...]:
 
 def _air_cuts(pairs: Pairs, radius: float, center: Path) -> tuple[AirCut, ...]:
     """Use the search for uncut surface with path and surface swapped: path that does not reach the surface cuts air."""
-    whole = np.zeros(len(pairs.pieces), np.bool_)
-    whole[pairs.i[along(pairs, radius + pairs.grant)]] = True
-    gaps = gaps_of(pairs, whole, radius)
-    beyond, numbers = gaps.apart - radius, center.numbers[pairs.pieces.rows[gaps.pieces]]
+    fully_reached = np.zeros(len(pairs.pieces), np.bool_)
+    fully_reached[pairs.i[piece_within(pairs, radius + pairs.tolerance)]] = True
+    gaps = gaps_of(pairs, fully_reached, radius)
+    beyond, numbers = gaps.distance - radius, center.numbers[pairs.pieces.rows[gaps.pieces]]
     columns = (*numbers, *gaps.ends, gaps.intervals.last - gaps.intervals.first, beyond, gaps.farthest)
     return tuple(
-        AirCut(first, last, point_of(start), point_of(end), length, off, point_of(farthest))
-        for first, last, start, end, length, off, farthest in zip(*(column.tolist() for column in columns), strict=True)
-        if off > STOCK
+        AirCut(first, last, point_of(start), point_of(end), length, excess, point_of(farthest))
+        for first, last, start, end, length, excess, farthest in zip(
+            *(column.tolist() for column in columns), strict=True
+        )
+        if excess > STOCK
     )
 
 
@@ -89,19 +91,19 @@ def backwards(pairs: Pairs, radius: float) -> tuple[int, ...]:
 
 def _directions(pairs: Pairs, radius: float) -> Rows:
     """Return (n,) +1 for pieces that run with some wall they touch, -1 if they run against all of them, else 0."""
-    touching = (pairs.least <= radius + pairs.grant).nonzero()[0]
-    way = np.zeros(len(touching), np.intp)
+    touching = (pairs.least <= radius + pairs.tolerance).nonzero()[0]
+    signs = np.zeros(len(touching), np.intp)
     for batch in batches_by_kind(pairs.pieces.arcs[pairs.i[touching]], pairs.others.arcs[pairs.j[touching]]):
-        way[batch] = _direction(pairs.keep(touching[batch]), radius)
-    ways = np.zeros(len(pairs.pieces), np.intp)
-    ways[pairs.i[touching[way < 0]]] = -1
-    ways[pairs.i[touching[way > 0]]] = 1
-    return ways
+        signs[batch] = _direction(pairs.keep(touching[batch]), radius)
+    directions = np.zeros(len(pairs.pieces), np.intp)
+    directions[pairs.i[touching[signs < 0]]] = -1
+    directions[pairs.i[touching[signs > 0]]] = 1
+    return directions
 
 
 def _direction(pairs: Pairs, radius: float) -> Rows:
     """Return +1 if a piece and the wall it touches run side by side in the same direction, -1 if opposite, else 0."""
-    limit = radius + pairs.grant
+    limit = radius + pairs.tolerance
     piece, wall = pairs.pieces.take(pairs.i), pairs.others.take(pairs.j)
     feet = foot(wall, np.array((piece.start, piece.end)))
     reached = np.concatenate((pairs.from_other, pairs.from_piece[::2])) <= limit
@@ -109,15 +111,17 @@ def _direction(pairs: Pairs, radius: float) -> Rows:
     begin, end = np.where(reached, fractions, 2.0).min(axis=0), np.where(reached, fractions, -2.0).max(axis=0)
     wide = (end - begin) * wall.length > MAX_POINT_LENGTH
     turn = piece.turn * wall.turn
-    straight = ~(piece.arcs | wall.arcs) & (pairs.least >= radius - pairs.grant)
-    off = np.abs(piece.center - wall.center) + np.abs(np.abs(piece.radius - wall.radius) - radius)
-    alike = straight | ((turn != 0.0) & (off <= pairs.grant))
-    plain = np.sign(np.where(turn == 0.0, (piece.vector * np.conj(wall.vector)).real, turn))
-    way: Rows = np.where(wide & alike, plain, 0.0).astype(np.intp)
-    others = (~alike & (np.abs(pairs.from_piece[1] - radius) <= 2.0 * (pairs.grant + ON_PATH))).nonzero()[0]
-    if len(others):
-        way[others] = _direction_at_middle(pairs.keep(others), radius)
-    return way
+    straight = ~(piece.arcs | wall.arcs) & (pairs.least >= radius - pairs.tolerance)
+    deviation = np.abs(piece.center - wall.center) + np.abs(np.abs(piece.radius - wall.radius) - radius)
+    comparable = straight | ((turn != 0.0) & (deviation <= pairs.tolerance))
+    sign = np.sign(np.where(turn == 0.0, (piece.vector * np.conj(wall.vector)).real, turn))
+    directions: Rows = np.where(wide & comparable, sign, 0.0).astype(np.intp)
+    to_measure = (~comparable & (np.abs(pairs.from_piece[1] - radius) <= 2.0 * (pairs.tolerance + ON_PATH))).nonzero()[
+        0
+    ]
+    if len(to_measure):
+        directions[to_measure] = _direction_at_middle(pairs.keep(to_measure), radius)
+    return directions
 
 
 def _direction_at_middle(pairs: Pairs, radius: float) -> Rows:
@@ -127,6 +131,6 @@ def _direction_at_middle(pairs: Pairs, radius: float) -> Rows:
     middle = at(piece, half)
     t = foot(wall, middle)
     turn = direction(piece, half) * np.conj(direction(wall, t))
-    touching: Flags = np.abs(np.abs(middle - at(wall, t)) - radius) <= pairs.grant + ON_PATH
+    touching: Flags = np.abs(np.abs(middle - at(wall, t)) - radius) <= pairs.tolerance + ON_PATH
     parallel = touching & (t > 0.0) & (t < 1.0) & (np.abs(turn.imag) < MAX_PARALLEL_SINE)
     return np.where(parallel, np.sign(turn.real), 0.0).astype(np.intp)

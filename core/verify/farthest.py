@@ -48,7 +48,7 @@ class Farthest(NamedTuple):
 
     place: Floats
     point: Points
-    apart: Floats
+    distance: Floats
     near: Rows
 
 
@@ -60,32 +60,32 @@ class _Spans:
     owner: Rows
     index: Rows
     t: Floats
-    apart: Floats
+    distance: Floats
     near: Rows
 
     def take(self, rows: Rows) -> _Spans:
-        return _Spans(self.owner[rows], self.index[rows], self.t[:, rows], self.apart[:, rows], self.near[:, rows])
+        return _Spans(self.owner[rows], self.index[rows], self.t[:, rows], self.distance[:, rows], self.near[:, rows])
 
 
-def farthest(pairs: Pairs, intervals: Intervals, most: float = inf) -> Farthest:
+def farthest(pairs: Pairs, intervals: Intervals, largest_possible: float = inf) -> Farthest:
     """Find the largest distance of each interval of the pieces from the others.
 
-    No distance is larger than `most`, so the search of an interval ends at a place that far away.
+    No distance is larger than `largest_possible`, so the search of an interval ends at a place that far away.
     """
     # intervals are independent of each other: some at a time bound the memory in use
     index = pairs.stations[1:-1].searchsorted(np.array((intervals.first, intervals.last)))
     begins = changes((index[1] - index[0] + 1).cumsum() // BAND_PIECES).tolist()
     edges = [0, *begins[1:], len(intervals)]
-    batches = [_farthest(pairs, intervals.keep(slice(*rows)), most) for rows in pairwise(edges)]
+    batches = [_farthest(pairs, intervals.keep(slice(*rows)), largest_possible) for rows in pairwise(edges)]
     return Farthest._make(map(np.concatenate, zip(*batches, strict=True)))
 
 
-def _farthest(pairs: Pairs, intervals: Intervals, most: float) -> Farthest:
+def _farthest(pairs: Pairs, intervals: Intervals, largest_possible: float) -> Farthest:
     spans, best = _begin(pairs, intervals)
     for division in range(MAX_DIVISIONS):
-        spans = spans.take((best.apart[spans.owner] < most - DISTANCE_TOLERANCE).nonzero()[0])
+        spans = spans.take((best.distance[spans.owner] < largest_possible - DISTANCE_TOLERANCE).nonzero()[0])
         bounds, peaks = _bounds(pairs, spans)
-        rows = (bounds > best.apart[spans.owner] + DISTANCE_TOLERANCE).nonzero()[0]
+        rows = (bounds > best.distance[spans.owner] + DISTANCE_TOLERANCE).nonzero()[0]
         if not len(rows):
             break
         spans = spans.take(rows)
@@ -99,7 +99,7 @@ def _nearest_at(pairs: Pairs, index: Rows, t: Floats) -> tuple[Points, Floats, R
     points = at(pairs.pieces.take(index), t)
     near = nearest(pairs, index, points)
     first = near.first
-    return points, np.minimum.reduceat(near.apart, first) if len(first) else near.apart, near.j[first]
+    return points, np.minimum.reduceat(near.distance, first) if len(first) else near.distance, near.j[first]
 
 
 def _begin(pairs: Pairs, intervals: Intervals) -> tuple[_Spans, Farthest]:
@@ -110,25 +110,30 @@ def _begin(pairs: Pairs, intervals: Intervals) -> tuple[_Spans, Farthest]:
     none = np.full(len(intervals), -1)
     best = Farthest(intervals.first, none.astype(np.complex128), np.full(len(intervals), -inf), none)
     twice = np.tile(index, 2)
-    points, apart, near = _nearest_at(pairs, twice, t.ravel())
-    best = _better(pairs, best, np.tile(owner, 2), twice, t.ravel(), (points, apart, near))
-    return _Spans(owner, index, t, apart.reshape(2, -1), near.reshape(2, -1)), best
+    points, distances, near = _nearest_at(pairs, twice, t.ravel())
+    best = _better(pairs, best, np.tile(owner, 2), twice, t.ravel(), (points, distances, near))
+    return _Spans(owner, index, t, distances.reshape(2, -1), near.reshape(2, -1)), best
 
 
 def _better(
-    pairs: Pairs, best: Farthest, owner: Rows, index: Rows, t: Floats, seen: tuple[Points, Floats, Rows]
+    pairs: Pairs, best: Farthest, owner: Rows, index: Rows, t: Floats, measured: tuple[Points, Floats, Rows]
 ) -> Farthest:
     """Return `best`, updated with the places `t` on pieces `index` of intervals `owner` that are farther."""
-    points, apart, near = seen
+    points, distances, near = measured
     s = pairs.stations[index] + t * pairs.pieces.length[index]
     # in each interval the largest comes first, among equal ones the earliest
-    order = np.lexsort((s, -np.round(apart / ON_PATH), owner))
+    order = np.lexsort((s, -np.round(distances / ON_PATH), owner))
     first = order[changes(owner[order])]
-    first = first[apart[first] > best.apart[owner[first]]]
-    chosen = owner[first]
-    place, point, most, by = best.place.copy(), best.point.copy(), best.apart.copy(), best.near.copy()
-    place[chosen], point[chosen], most[chosen], by[chosen] = s[first], points[first], apart[first], near[first]
-    return Farthest(place, point, most, by)
+    first = first[distances[first] > best.distance[owner[first]]]
+    owners = owner[first]
+    place, point, largest, nearest_piece = best.place.copy(), best.point.copy(), best.distance.copy(), best.near.copy()
+    place[owners], point[owners], largest[owners], nearest_piece[owners] = (
+        s[first],
+        points[first],
+        distances[first],
+        near[first],
+    )
+    return Farthest(place, point, largest, nearest_piece)
 
 
 def _bounds(pairs: Pairs, spans: _Spans) -> tuple[Floats, Floats]:
@@ -138,7 +143,7 @@ def _bounds(pairs: Pairs, spans: _Spans) -> tuple[Floats, Floats]:
     piece, near = pairs.pieces.take(np.tile(spans.index, 2)), pairs.others.take(spans.near.ravel())
     across = distance(near, at(piece, t[::-1].ravel()))
     highest, peaks = _within_span(piece, near, np.concatenate((t, t), axis=1))
-    highest = np.maximum(np.maximum(highest, across), spans.apart.ravel())
+    highest = np.maximum(np.maximum(highest, across), spans.distance.ravel())
     return np.minimum(highest[:count], highest[count:]), (peaks[:count] - t[0]) / (t[1] - t[0])
 
 
@@ -149,9 +154,9 @@ def _within_span(piece: PieceArrays, near: PieceArrays, t: Floats) -> tuple[Floa
     inside = (fractions > t[0]) & (fractions < t[1])
     if not inside.any():
         return np.zeros(len(piece)), t[0]
-    apart = np.where(inside, distances_at(piece, near, fractions), 0.0)
-    best, each = apart.argmax(axis=0), np.arange(len(piece))
-    return apart[best, each], fractions[best, each]
+    distances = np.where(inside, distances_at(piece, near, fractions), 0.0)
+    best, columns = distances.argmax(axis=0), np.arange(len(piece))
+    return distances[best, columns], fractions[best, columns]
 
 
 def _shares(pairs: Pairs, spans: _Spans, peaks: Floats) -> Floats:
@@ -167,25 +172,25 @@ def _equally_far(pairs: Pairs, spans: _Spans) -> Floats:
     """Return the share of each span at which the nearest pieces of its two ends are equally far."""
     piece, (first_wall, last_wall) = pairs.pieces.take(spans.index), (pairs.others.take(near) for near in spans.near)
     begin, end = spans.t
-    low, high, each = begin, end, np.arange(len(begin))
+    low, high, columns = begin, end, np.arange(len(begin))
     for _ in range(MAX_NARROWINGS):
         fractions = low + SECTION_SHARES * (high - low)
         points = at(piece, fractions)
         nearer = distance(last_wall, points) - distance(first_wall, points)
         after = np.maximum(np.argmax(nearer < 0.0, axis=0), 1)
-        (low, high), (more, less) = ((of[after - 1, each], of[after, each]) for of in (fractions, nearer))
-    met = low + (high - low) * np.where(more > less, more / (more - less), 0.5)
-    shares: Floats = (met - begin) / (end - begin)
+        (low, high), (more, less) = ((of[after - 1, columns], of[after, columns]) for of in (fractions, nearer))
+    meeting = low + (high - low) * np.where(more > less, more / (more - less), 0.5)
+    shares: Floats = (meeting - begin) / (end - begin)
     return shares
 
 
 def _divide(pairs: Pairs, spans: _Spans, share: Floats, best: Farthest) -> tuple[_Spans, Farthest]:
     """Divide every span in two at `share` of its length; return the halves and `best`, updated with the new places."""
     t = spans.t[0] + share * (spans.t[1] - spans.t[0])
-    points, apart, near = _nearest_at(pairs, spans.index, t)
+    points, distances, near = _nearest_at(pairs, spans.index, t)
     halves = [
         np.array((np.concatenate((ends[0], new)), np.concatenate((new, ends[1]))))
-        for ends, new in ((spans.t, t), (spans.apart, apart), (spans.near, near))
+        for ends, new in ((spans.t, t), (spans.distance, distances), (spans.near, near))
     ]
-    best = _better(pairs, best, spans.owner, spans.index, t, (points, apart, near))
+    best = _better(pairs, best, spans.owner, spans.index, t, (points, distances, near))
     return _Spans(np.tile(spans.owner, 2), np.tile(spans.index, 2), *halves), best

@@ -30,7 +30,7 @@ class Gouging:
 
     intervals: Intervals
     place: Floats
-    apart: Floats
+    distance: Floats
     i: Rows
     j: Rows
 
@@ -53,12 +53,12 @@ def gouging(pairs: Pairs, limit: float) -> Gouging:
     deepest = []
     for rows in some_at_a_time:
         # the parts nearer than the limit, and the places where they may be nearest
-        spots, apart, pair = approaches(pairs, rows, limits[rows])
-        near_parts = joined((within(pairs, rows, limits[rows]), Parts(spots, spots, spots, apart, pair)))
+        spots, distances, pair = approaches(pairs, rows, limits[rows])
+        near_parts = joined((within(pairs, rows, limits[rows]), Parts(spots, spots, spots, distances, pair)))
         deepest.append(_deepest(pairs, near_parts, gaps))
     parts = _deepest(pairs, joined(deepest), gaps)
     intervals = Intervals(parts.first, parts.last)
-    return Gouging(intervals, parts.middle, parts.apart, pairs.i[parts.pair], pairs.j[parts.pair])
+    return Gouging(intervals, parts.middle, parts.distance, pairs.i[parts.pair], pairs.j[parts.pair])
 
 
 def approaches(pairs: Pairs, rows: Rows, limit: Floats) -> tuple[Floats, Floats, Rows]:
@@ -69,15 +69,15 @@ def approaches(pairs: Pairs, rows: Rows, limit: Floats) -> tuple[Floats, Floats,
         pair = rows[batch]
         pieces, others = pairs.pieces.take(pairs.i[pair]), pairs.others.take(pairs.j[pair])
         fractions = nearest_fractions(pieces, others)
-        apart = measured(distances_at(pieces, others, fractions))
+        distances = measured(distances_at(pieces, others, fractions))
         new = (fractions > 0.0) & (fractions < 1.0)
         # the first two are the ends
         new[:2] = True
-        k, row = np.nonzero(new & (apart < limit[batch]))
+        k, row = np.nonzero(new & (distances < limit[batch]))
         spots = pairs.stations[pairs.i[pair[row]]] + fractions[k, row] * pieces.length[row]
-        batches.append(np.array((spots, apart[k, row], pair[row])))
-    spots, apart, pair = np.concatenate(batches, axis=1)
-    return spots, apart, pair.astype(np.intp)
+        batches.append(np.array((spots, distances[k, row], pair[row])))
+    spots, distances, pair = np.concatenate(batches, axis=1)
+    return spots, distances, pair.astype(np.intp)
 
 
 def closest(pairs: Pairs, surface: Path) -> Approach | None:
@@ -87,8 +87,8 @@ def closest(pairs: Pairs, surface: Path) -> Approach | None:
     least = pairs.least.min()
     near = pairs.least <= least + GOUGE
     rows = (near & (pairs.i == pairs.i[near.argmax()])).nonzero()[0]
-    spots, apart, pair = approaches(pairs, rows, np.full(len(rows), inf))
-    first = np.lexsort((pairs.j[pair], np.round(spots / ON_PATH), apart > least + GOUGE))[:1]
+    spots, distances, pair = approaches(pairs, rows, np.full(len(rows), inf))
+    first = np.lexsort((pairs.j[pair], np.round(spots / ON_PATH), distances > least + GOUGE))[:1]
     piece, wall = pairs.pieces.take(pairs.i[pair[first]]), pairs.others.take(pairs.j[pair[first]])
     center = at(piece, fraction(spots[first] - pairs.stations[pairs.i[pair[first]]], piece.length))
     cut = at(wall, foot(wall, center))
@@ -107,11 +107,11 @@ def _deepest(pairs: Pairs, parts: Parts, gaps: Floats) -> Parts:
     """
     gap = gaps[pairs.i[parts.pair]]
     intervals = merged(parts.first + gap, parts.last + gap)
-    owner, apart = intervals.index(parts.middle + gap), np.round(parts.apart / ON_PATH)
-    order = np.lexsort((parts.pair, apart, owner))
+    owner, distances = intervals.index(parts.middle + gap), np.round(parts.distance / ON_PATH)
+    order = np.lexsort((parts.pair, distances, owner))
     best = order[changes(owner[order])]
     first, last = intervals.first - gap[best], intervals.last - gap[best]
-    return Parts(first, last, parts.middle[best], parts.apart[best], parts.pair[best])
+    return Parts(first, last, parts.middle[best], parts.distance[best], parts.pair[best])
 
 
 def gouges(hits: Gouging, pairs: Pairs, radius: float, surface: Path, numbers: Floats) -> tuple[Gouge, ...]:
@@ -122,7 +122,7 @@ def gouges(hits: Gouging, pairs: Pairs, radius: float, surface: Path, numbers: F
     points = at(piece, fraction(hits.place - pairs.stations[hits.i], piece.length))
     cut = at(wall, foot(wall, points))
     columns = (
-        radius - hits.apart,
+        radius - hits.distance,
         points.real,
         points.imag,
         cut.real,

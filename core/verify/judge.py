@@ -11,13 +11,13 @@ from core.geometry.path import Floats, Path
 from core.geometry.piece import Side
 from core.geometry.piece_arrays import PieceArrays, piece_arrays
 from core.tolerance import ARC_RADII, GOUGE
-from core.verify.air_cuts import backwards, loose
+from core.verify.air_cuts import backwards, may_cut_air
 from core.verify.gouge import closest, gouges, gouging
 from core.verify.pairs import NotMeasurableError, measurable, pairs_of, rounding_of, uneven_slack
 from core.verify.surface import Leads, Surface
 from core.verify.uncut import covered_walls, uncut
 from core.verify.verdict import UnevenArc, Verdict
-from core.verify.wrong_side import sided, wrong_side
+from core.verify.wrong_side import with_sides, wrong_side
 
 
 def judge(
@@ -68,10 +68,10 @@ def judge_prepared(
     with np.errstate(all="ignore"):
         moves = piece_arrays(*centers)
         numbers = np.concatenate((np.empty(0), *(center.numbers for center in centers)))
-        for pieces, known in ((surface.walls, surface.path.numbers), (moves, numbers)):
+        for pieces, piece_numbers in ((surface.walls, surface.path.numbers), (moves, numbers)):
             worst = int(pieces.slack.argmax()) if len(pieces) else 0
             if len(pieces) and not pieces.slack[worst] <= arc_tolerance:
-                number, slack = float(known[pieces.rows[worst]]), float(pieces.slack[worst])
+                number, slack = float(piece_numbers[pieces.rows[worst]]), float(pieces.slack[worst])
                 return _unjudged(radius, UnevenArc(number, slack, on_surface=pieces is surface.walls))
         try:
             return _judged(surface, radius, moves, numbers, measures_uncut=measures_uncut)
@@ -88,20 +88,22 @@ def _judged(surface: Surface, radius: float, moves: PieceArrays, numbers: Floats
     pairs = pairs_of(moves, walls, rounding_of(walls))
     if np.isnan(pairs.least).any():
         return _unjudged(radius)
-    hits = gouging(pairs, radius - GOUGE)
-    wrong, deepest = wrong_side(pairs, hits, sided(side, walls, surface.crossings, closed=surface.closed), radius)
-    crossed = surface.crossings.points[:1].tolist()
+    gouging_parts = gouging(pairs, radius - GOUGE)
+    wrong, deepest = wrong_side(
+        pairs, gouging_parts, with_sides(side, walls, surface.crossings, closed=surface.closed), radius
+    )
+    crossing_points = surface.crossings.points[:1].tolist()
     verdict = Verdict(
         radius=radius,
         closest=closest(pairs, surface.path),
         gouges=gouges(deepest, pairs, radius, surface.path, numbers),
         uncut=(),
         surface_length=float(walls.stations[-1]),
-        crosses_itself=bool(crossed),
+        crosses_itself=bool(crossing_points),
         wrong_side=tuple(moves.rows[wrong].tolist()),
-        loose=loose(pairs, radius),
+        may_cut_air=may_cut_air(pairs, radius),
         backwards=backwards(pairs, radius),
-        crossing_at=(crossed[0].real, crossed[0].imag) if crossed else None,
+        crossing_at=(crossing_points[0].real, crossing_points[0].imag) if crossing_points else None,
         over_run=surface.over_run,
         radius_slack=float(uneven_slack(moves, pairs.i, walls, pairs.j).max(initial=0.0)),
     )
@@ -110,5 +112,5 @@ def _judged(surface: Surface, radius: float, moves: PieceArrays, numbers: Floats
     covered = covered_walls(pairs, radius, closed=surface.closed)
     # free the memory of the moves' pairs before those of the walls are made
     del pairs
-    left = uncut(walls, moves, covered, radius, surface.path, side, closed=surface.closed)
-    return replace(verdict, uncut=left)
+    uncut_stretches = uncut(walls, moves, covered, radius, surface.path, side, closed=surface.closed)
+    return replace(verdict, uncut=uncut_stretches)

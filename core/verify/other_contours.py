@@ -132,14 +132,14 @@ def cuts_into_other_contours(
     for wall in walls:
         by_shape[wall.shape].append(wall)
     bounds = _bounds([wall.path for wall in walls])
-    for rows, near in near_pairs(bounds, _bounds([sweep.path for sweep in sweeps]), reach):
+    for rows, sweep_rows in near_pairs(bounds, _bounds([sweep.path for sweep in sweeps]), reach):
         pairs = defaultdict[int, list[Sweep]](list)
-        for row, index in zip(rows.tolist(), near.tolist(), strict=True):
+        for row, index in zip(rows.tolist(), sweep_rows.tolist(), strict=True):
             if walls[row].setup == sweeps[index].setup:
                 pairs[row].append(sweeps[index])
-        for row, others in pairs.items():
+        for row, near_sweeps in pairs.items():
             progress(row / len(walls))
-            cuts += _cuts(walls[row], others, by_shape)
+            cuts += _cuts(walls[row], near_sweeps, by_shape)
     return cuts
 
 
@@ -151,40 +151,40 @@ def _bounds(paths: Sequence[Path]) -> Floats:
 
 def _cuts(wall: Wall, sweeps: Sequence[Sweep], walls: Mapping[Hashable, Sequence[Wall]]) -> Iterator[ContourCut]:
     """Yield the deepest cut into a wall by the sweeps of each number; none if the wall was not to stay."""
-    others, chords = [sweep for sweep in sweeps if wall.shape not in sweep.shapes], wall.line()
+    other_sweeps, chords = [sweep for sweep in sweeps if wall.shape not in sweep.shapes], wall.line()
     shapely.prepare(chords)
-    if not any(sweep.reaches(chords, wall.top) for sweep in others):
+    if not any(sweep.reaches(chords, wall.top) for sweep in other_sweeps):
         return
-    own = [sweep.region(wall.top, MIN_CUT_DEPTH) for sweep in sweeps if wall.shape in sweep.shapes]
-    cut_region, inside, line = shapely.union_all(own), _enclosed(chords), _outline(chords)
+    own_regions = [sweep.region(wall.top, MIN_CUT_DEPTH) for sweep in sweeps if wall.shape in sweep.shapes]
+    cut_region, inside, line = shapely.union_all(own_regions), _enclosed(chords), _outline(chords)
     is_open = inside.is_empty
     # an island's own path stays outside it
     if inside.intersection(cut_region).area >= inside.length * 3.0 * MIN_CUT_DEPTH:
         inside = Polygon()
-    stands, core, cutting = line.intersection(cut_region), inside, defaultdict[int, list[Sweep]](list)
-    for sweep in others:
+    standing, inside_left, cutting = line.intersection(cut_region), inside, defaultdict[int, list[Sweep]](list)
+    for sweep in other_sweeps:
         region = sweep.region(wall.top, -MIN_CUT_DEPTH)
         if not region.intersects(line):
             continue
         cutting[sweep.number].append(sweep)
-        stands, core = stands.difference(region), core.difference(region)
-        if stands.length <= MAX_WALL_LEFT and inside.is_empty:
+        standing, inside_left = standing.difference(region), inside_left.difference(region)
+        if standing.length <= MAX_WALL_LEFT and inside.is_empty:
             return
-    destroyed = not inside.is_empty and core.area <= MAX_ISLAND_SHARE * inside.area
-    if stands.length <= MAX_WALL_LEFT and not destroyed:
+    destroyed = not inside.is_empty and inside_left.area <= MAX_ISLAND_SHARE * inside.area
+    if standing.length <= MAX_WALL_LEFT and not destroyed:
         return
     for group in cutting.values():
         cuts = list[ContourCut]()
         for sweep in group:
             crossed = [each for shape in sweep.shapes for each in walls[shape]] if is_open else ()
-            first, last = _ends(chords, crossed)
+            first, last = _wall_extent(chords, crossed)
             places = ((chords.project(Point(cut.gouge.surface_at)), cut) for cut in _measured(wall, sweep))
             cuts += [cut for place, cut in places if first <= place <= last]
         if cuts:
             yield max(cuts, key=lambda cut: cut.gouge.depth)
 
 
-def _ends(open_line: LineString, crossed: Sequence[Wall]) -> tuple[float, float]:
+def _wall_extent(open_line: LineString, crossed: Sequence[Wall]) -> tuple[float, float]:
     """Return between which lengths along an open contour it is wall: it runs on past the contours that it crosses.
 
     A slot runs on past the edge to which it is open, and each of two sides past their corner.

@@ -35,7 +35,7 @@ class Pairs:
     """(n + 1,) lengths traveled at the pieces' starts and at the end."""
     i: Rows
     j: Rows
-    grant: Floats
+    tolerance: Floats
     """(m,) tolerance of each pair for rounding and for the uneven radii of arcs."""
     least: Floats
     """(m,) least distance between the two pieces."""
@@ -51,9 +51,9 @@ class Pairs:
 
     def keep(self, rows: Rows) -> Pairs:
         """Return the pairs of these indices."""
-        i, j, grant, least = self.i[rows], self.j[rows], self.grant[rows], self.least[rows]
+        i, j, tolerance, least = self.i[rows], self.j[rows], self.tolerance[rows], self.least[rows]
         from_piece, from_other = self.from_piece[:, rows], self.from_other[:, rows]
-        return Pairs(self.pieces, self.others, self.stations, i, j, grant, least, from_piece, from_other)
+        return Pairs(self.pieces, self.others, self.stations, i, j, tolerance, least, from_piece, from_other)
 
 
 class NotMeasurableError(ArithmeticError):
@@ -74,15 +74,15 @@ def pairs_of(pieces: PieceArrays, others: PieceArrays, rounding: float, rows: Ro
     i, j = nearest_pairs(pieces if rows is None else pieces.take(rows), others, 4.0 * (rounding + slack) + ON_PATH)
     if rows is not None:
         i = rows[i]
-    grant = rounding + uneven_slack(pieces, i, others, j)
-    return Pairs(pieces, others, pieces.stations, i, j, grant, *_measured(pieces, i, others, j))
+    tolerance = rounding + uneven_slack(pieces, i, others, j)
+    return Pairs(pieces, others, pieces.stations, i, j, tolerance, *_measured(pieces, i, others, j))
 
 
-def measured(apart: Floats) -> Floats:
+def measured(distances: Floats) -> Floats:
     """Return these distances; raise NotMeasurableError if one is not a number."""
-    if np.isnan(apart).any():
+    if np.isnan(distances).any():
         raise NotMeasurableError
-    return apart
+    return distances
 
 
 def uneven_slack(pieces: PieceArrays, i: Rows, others: PieceArrays, j: Rows) -> Floats:
@@ -118,26 +118,26 @@ def _measured(pieces: PieceArrays, i: Rows, others: PieceArrays, j: Rows) -> tup
     return least, from_piece, from_other
 
 
-def keeping(pairs: Pairs, radius: float) -> Flags:
+def near_ends_and_middle(pairs: Pairs, radius: float) -> Flags:
     """True for pairs whose other piece is no farther than the radius from the piece's ends and its middle."""
-    near: Flags = pairs.from_piece.max(axis=0) <= radius + pairs.grant + STOCK
+    near: Flags = pairs.from_piece.max(axis=0) <= radius + pairs.tolerance + STOCK
     return near
 
 
-def along(pairs: Pairs, limit: Floats) -> Flags:
+def piece_within(pairs: Pairs, limit: Floats) -> Flags:
     """True for pairs whose other piece is surely within the limit of all of the piece: its start, middle and end are
     within the limit, and both are lines or concentric arcs."""
-    near: Flags = (pairs.from_piece.max(axis=0) <= limit) & _alike(pairs)
+    near: Flags = (pairs.from_piece.max(axis=0) <= limit) & _same_kind(pairs)
     return near
 
 
-def covering(pairs: Pairs, limit: Floats) -> Flags:
+def other_within(pairs: Pairs, limit: Floats) -> Flags:
     """True for pairs whose piece is surely within the limit of all of the other piece."""
-    near: Flags = (pairs.from_other.max(axis=0) <= limit) & _alike(pairs)
+    near: Flags = (pairs.from_other.max(axis=0) <= limit) & _same_kind(pairs)
     return near
 
 
-def _alike(pairs: Pairs) -> Flags:
+def _same_kind(pairs: Pairs) -> Flags:
     """True for pairs of lines and for pairs of concentric arcs."""
     return ~(pairs.pieces.arcs[pairs.i] | pairs.others.arcs[pairs.j]) | concentric(pairs)
 
@@ -166,7 +166,7 @@ class Nearest:
 
     k: Rows
     j: Rows
-    apart: Floats
+    distance: Floats
 
     @property
     def first(self) -> Rows:
@@ -181,11 +181,11 @@ def nearest(pairs: Pairs, index: Rows, points: Points) -> Nearest:
     starts = counts.cumsum() - counts
     k = np.repeat(np.arange(len(index)), counts)
     j = pairs.j[np.arange(len(k)) + (begins - starts)[k]]
-    apart = np.empty(len(k))
+    distances = np.empty(len(k))
     for batch in batches_by_kind(*[pairs.others.arcs[j]] * 2):
-        apart[batch] = distance(pairs.others.take(j[batch]), points[k[batch]])
-    keep = (apart <= np.minimum.reduceat(apart, starts)[k] + ON_PATH).nonzero()[0] if len(k) else k
-    return Nearest(k[keep], j[keep], apart[keep])
+        distances[batch] = distance(pairs.others.take(j[batch]), points[k[batch]])
+    keep = (distances <= np.minimum.reduceat(distances, starts)[k] + ON_PATH).nonzero()[0] if len(k) else k
+    return Nearest(k[keep], j[keep], distances[keep])
 
 
 @dataclass(frozen=True, eq=False, slots=True)
@@ -235,7 +235,7 @@ class Parts(NamedTuple):
     first: Floats
     last: Floats
     middle: Floats
-    apart: Floats
+    distance: Floats
     pair: Rows
 
 
@@ -255,11 +255,13 @@ def _within(pairs: Pairs, rows: Rows, limit: Floats) -> Parts:
     pieces, others = pairs.pieces.take(pairs.i[rows]), pairs.others.take(pairs.j[rows])
     fractions = band_fractions(pieces, others, limit)
     middles = (fractions[1:] + fractions[:-1]) / 2.0
-    apart = measured(distances_at(pieces, others, middles))
-    part, pair = ((apart < limit) & (fractions[1:] > fractions[:-1])).nonzero()
+    distances = measured(distances_at(pieces, others, middles))
+    part, pair = ((distances < limit) & (fractions[1:] > fractions[:-1])).nonzero()
     start, length = pairs.stations[pairs.i[rows[pair]]], pieces.length[pair]
     first, last, middle = fractions[part, pair], fractions[part + 1, pair], middles[part, pair]
-    return Parts(start + first * length, start + last * length, start + middle * length, apart[part, pair], rows[pair])
+    return Parts(
+        start + first * length, start + last * length, start + middle * length, distances[part, pair], rows[pair]
+    )
 
 
 def joined(batches: Sequence[Parts]) -> Parts:

@@ -138,10 +138,10 @@ def _crossing(verdict: Verdict) -> tuple[Finding, ...]:
     return (Finding("CROSSES_ITSELF", Severity.WARNING, text, at=verdict.crossing_at),)
 
 
-def enumerated(what: str, numbers: Sequence[float]) -> str:
+def enumerated(noun: str, numbers: Sequence[float]) -> str:
     """Return numbers as words of a sentence: `line 3`, `lines 3 and 4`, `lines 3, 4 and 9`."""
     *names, last = (f"{int(number)}" for number in dict.fromkeys(map(int, numbers)))
-    return f"{what}s {', '.join(names)} and {last}" if names else f"{what} {last}"
+    return f"{noun}s {', '.join(names)} and {last}" if names else f"{noun} {last}"
 
 
 def _over_run(over_run: OverRun) -> Finding:
@@ -163,11 +163,11 @@ def _over_run(over_run: OverRun) -> Finding:
 
 def _uncut_findings(verdict: Verdict, surface: Path) -> Iterator[Finding]:
     """Yield the uncut stretches in the contour's order; equal inside corners sharper than the cutter share one."""
-    equal = {corners[0]: corners for corners in _equal_corners(verdict, surface)}
-    later = {row for corners in equal.values() for row in corners[1:]}
+    corners_of_row = {corners[0]: corners for corners in _equal_corners(verdict, surface)}
+    later = {row for corners in corners_of_row.values() for row in corners[1:]}
     for row, stretch in enumerate(verdict.uncut):
-        if row in equal:
-            yield _corners(tuple(verdict.uncut[corner] for corner in equal[row]))
+        if row in corners_of_row:
+            yield _corners(tuple(verdict.uncut[corner] for corner in corners_of_row[row]))
         elif row not in later:
             yield _uncut(stretch, surface)
 
@@ -185,14 +185,14 @@ def _equal_corners(verdict: Verdict, surface: Path) -> list[list[int]]:
     cosines = (surface.end_directions[first] * surface.start_directions[last]).sum(axis=1)
     roundings = np.where(between == 1, surface.radii[middle], 0.0)
     with np.errstate(divide="ignore", invalid="ignore"):
-        left = (verdict.radius - roundings) * (1.0 / np.sqrt((1.0 + cosines) / 2.0) - 1.0)
+        expected = (verdict.radius - roundings) * (1.0 / np.sqrt((1.0 + cosines) / 2.0) - 1.0)
     thickness = np.array([stretch.thickness for stretch in verdict.uncut])
     # between opposite lines, or without a path, there is no number
-    measured = np.flatnonzero(corner & np.isfinite(left) & np.isfinite(thickness))
-    rows = measured[np.abs(thickness[measured] - left[measured]) <= STOCK]
+    measured = np.flatnonzero(corner & np.isfinite(expected) & np.isfinite(thickness))
+    rows = measured[np.abs(thickness[measured] - expected[measured]) <= STOCK]
     rows = rows[thickness[rows].argsort(kind="stable")]
-    kinds = np.split(rows, np.flatnonzero(np.diff(thickness[rows]) > GOUGE) + 1)
-    return [sorted(kind.tolist()) for kind in kinds if len(kind) > 1]
+    groups = np.split(rows, np.flatnonzero(np.diff(thickness[rows]) > GOUGE) + 1)
+    return [sorted(group.tolist()) for group in groups if len(group) > 1]
 
 
 def _corners(corners: Sequence[Uncut]) -> Finding:

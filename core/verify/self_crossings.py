@@ -48,13 +48,13 @@ def self_crossings(surface: PieceArrays, *, closed: bool) -> SelfCrossings:
 
 def _meetings(surface: PieceArrays, i: Rows, j: Rows, *, closed: bool) -> SelfCrossings:
     """Return where these pairs of pieces meet, unordered."""
-    following = j == i + 1
-    around = (i == 0) & (j == len(surface) - 1) if closed else np.zeros(len(i), np.bool_)
+    consecutive = j == i + 1
+    over_start = (i == 0) & (j == len(surface) - 1) if closed else np.zeros(len(i), np.bool_)
     piece, other = surface.take(i), surface.take(j)
     fractions = np.vstack((nearest_fractions(piece, other), np.full(len(piece), 0.5)))
     points = at(piece, fractions)
-    met = (distance(other, points) <= JOINED) & _away(piece, other, fractions, points, following, around)
-    k, pair = np.nonzero(met)
+    meets = (distance(other, points) <= JOINED) & _away(piece, other, fractions, points, consecutive, over_start)
+    k, pair = np.nonzero(meets)
     on_other = foot(other.take(pair), points[k, pair])
     stations = surface.stations
     first = stations[i[pair]] + fractions[k, pair] * piece.length[pair]
@@ -67,11 +67,11 @@ def _candidates(surface: PieceArrays, *, closed: bool) -> tuple[Rows, Rows]:
     i, j = sorted_pairs(near_pairs_within(surface.boxes, JOINED))
     # a curve must turn through half a turn to come back
     back = _turned(surface, i, i + 1) > pi - HALF_TURN_GAP
-    apart = (j - i >= 2) | back
+    may_meet = (j - i >= 2) | back
     if closed and len(surface) > 2:
         seam = (i == 0) & (j == len(surface) - 1)
-        apart &= ~seam | (_turned(surface, j, i) > pi - HALF_TURN_GAP)
-    return i[apart], j[apart]
+        may_meet &= ~seam | (_turned(surface, j, i) > pi - HALF_TURN_GAP)
+    return i[may_meet], j[may_meet]
 
 
 def _turned(surface: PieceArrays, rows: Rows, following: Rows) -> Floats:
@@ -90,7 +90,7 @@ def at_joints(surface: PieceArrays, rows: Rows, following: Rows) -> Points:
 
 
 def _away(
-    piece: PieceArrays, other: PieceArrays, fractions: Floats, points: Points, following: Flags, around: Flags
+    piece: PieceArrays, other: PieceArrays, fractions: Floats, points: Points, consecutive: Flags, over_start: Flags
 ) -> Flags:
     """Return (9, m) True for places that do not belong to a joint.
 
@@ -98,10 +98,12 @@ def _away(
     only if they are apart in between, or if the later one runs back over the earlier one.
     """
     away = np.ones(points.shape, np.bool_)
-    for joint, mine, theirs in ((following, 1.0, 0.0), (around, 0.0, 1.0)):
-        corner = at(piece, np.full(len(piece), mine))
-        parted = distances_at(piece, other, (fractions + mine) / 2.0) > 2.0 * JOINED
-        turn = direction(piece, np.full(len(piece), mine)) * np.conj(direction(other, np.full(len(piece), theirs)))
-        elsewhere = (np.abs(points - corner) > 10.0 * JOINED) & (parted | (turn.real < -1.0 + 1e-9))
+    for joint, own_end, other_end in ((consecutive, 1.0, 0.0), (over_start, 0.0, 1.0)):
+        corner = at(piece, np.full(len(piece), own_end))
+        separated = distances_at(piece, other, (fractions + own_end) / 2.0) > 2.0 * JOINED
+        turn = direction(piece, np.full(len(piece), own_end)) * np.conj(
+            direction(other, np.full(len(piece), other_end))
+        )
+        elsewhere = (np.abs(points - corner) > 10.0 * JOINED) & (separated | (turn.real < -1.0 + 1e-9))
         away &= ~joint | elsewhere
     return away

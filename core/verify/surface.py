@@ -17,7 +17,7 @@ from core.tolerance import CLOSED, JOINED
 from core.verify.pairs import nearest, pairs_of, rounding_of
 from core.verify.self_crossings import NO_CROSSINGS, SelfCrossings, at_joints, self_crossings
 from core.verify.verdict import OverRun
-from core.verify.wrong_side import on_part_side, sided
+from core.verify.wrong_side import on_part_side, with_sides
 
 LONG_LEAD: Final = 0.25
 """A lead that takes a larger share of its segment may be a wall, with START or the last end mistyped."""
@@ -61,16 +61,17 @@ class Surface:
     def prepare(path: Path, side: Side, *, leads: Leads = Leads.SEGMENTS) -> Surface:
         """Prepare the surface of a contour that can be judged."""
         with np.errstate(all="ignore"):
-            whole = Surface._of(path, side)
+            as_typed = Surface._of(path, side)
             if leads is Leads.NONE:
-                return whole
-            left = _without_over_run(whole, leads=leads)
-            shorter = None if left is not None else _without_overlap(whole)
-            if shorter is None:
-                return left or whole
-            once = Surface._of(shorter, side)
-            left = _without_over_run(once, leads=leads)
-            return left or (once if once.closed and not len(once.crossings) else whole)
+                return as_typed
+            if (trimmed := _without_over_run(as_typed, leads=leads)) is not None:
+                return trimmed
+            if (shorter_path := _without_overlap(as_typed)) is None:
+                return as_typed
+            shorter = Surface._of(shorter_path, side)
+            if (trimmed := _without_over_run(shorter, leads=leads)) is not None:
+                return trimmed
+            return shorter if shorter.closed and not len(shorter.crossings) else as_typed
 
     @staticmethod
     def _of(path: Path, side: Side) -> Surface:
@@ -123,10 +124,10 @@ def _without_over_run(surface: Surface, *, leads: Leads) -> Surface | None:
         return None
     begin = int(np.count_nonzero(stations[1:-1] <= first + JOINED))
     end = int(np.count_nonzero(stations[:-1] < last - JOINED)) - 1
-    left = piece_arrays(_between(surface.path, int(walls.rows[begin]), int(walls.rows[end]), at))
+    trimmed_walls = piece_arrays(_between(surface.path, int(walls.rows[begin]), int(walls.rows[end]), at))
     runs = [_run_in(surface, first, at)] if lead_in > JOINED else []
     runs += [_run_out(surface, last, at)] if lead_out > JOINED else []
-    if not all(_is_clear(run, left, surface.side) for run in runs):
+    if not all(_is_clear(run, trimmed_walls, surface.side) for run in runs):
         return None
     # a lead that is a move of its own is programmed on purpose
     lead_in_is_move = begin > 0 and (walls.arcs[0] or first <= stations[begin] + JOINED)
@@ -138,15 +139,20 @@ def _without_over_run(surface: Surface, *, leads: Leads) -> Surface | None:
     first_number, last_number = surface.path.numbers[walls.rows[[begin, end]]].tolist()
     doubtful = len(runs) == 1 and share > LONG_LEAD
     rows_in, rows_out = range(begin, -1, -1), range(end, len(walls))
-    left_in, left_out = first - float(stations[begin]), float(stations[end + 1]) - last
-    most_in, most_out = (LONG_LEAD if is_move else MAX_LEAD_SHARE for is_move in (lead_out_is_move, lead_in_is_move))
-    long = _may_be_walls(walls, rows_in, left_in, most_in) | _may_be_walls(walls, rows_out, left_out, most_out)
-    if max(lead_in, lead_out) > MAX_LEAD_SHARE * (last - first) or long:
-        long = set(rows_in if left_in > JOINED else rows_in[1:]) if lead_in > JOINED else set()
-        long |= set(rows_out if left_out > JOINED else rows_out[1:]) if lead_out > JOINED else set()
-    lead_numbers = tuple(surface.path.numbers[walls.rows[sorted(long)]].tolist())
+    beyond_in, beyond_out = first - float(stations[begin]), float(stations[end + 1]) - last
+    max_share_in = LONG_LEAD if lead_out_is_move else MAX_LEAD_SHARE
+    max_share_out = LONG_LEAD if lead_in_is_move else MAX_LEAD_SHARE
+    maybe_walls = _may_be_walls(walls, rows_in, beyond_in, max_share_in)
+    maybe_walls |= _may_be_walls(walls, rows_out, beyond_out, max_share_out)
+    named_leads = set[int]()
+    if maybe_walls or max(lead_in, lead_out) > MAX_LEAD_SHARE * (last - first):
+        if lead_in > JOINED:
+            named_leads |= set(rows_in if beyond_in > JOINED else rows_in[1:])
+        if lead_out > JOINED:
+            named_leads |= set(rows_out if beyond_out > JOINED else rows_out[1:])
+    lead_numbers = tuple(surface.path.numbers[walls.rows[sorted(named_leads)]].tolist())
     over_run = OverRun(at, lead_in, lead_out, first_number, last_number, doubtful, lead_numbers)
-    return Surface(surface.path, surface.side, left, True, NO_CROSSINGS, over_run)
+    return Surface(surface.path, surface.side, trimmed_walls, True, NO_CROSSINGS, over_run)
 
 
 def _crossing_of_ends(surface: Surface, *, leads: Leads) -> tuple[Point, float, float] | None:
@@ -158,8 +164,8 @@ def _crossing_of_ends(surface: Surface, *, leads: Leads) -> tuple[Point, float, 
     walls, crossings = surface.walls, surface.crossings
     if surface.closed:
         # ends that count as one point within CLOSED may still run past each other
-        apart = abs(walls.end[-1] - walls.start[0]) > JOINED
-        crossings = self_crossings(walls, closed=False) if apart else NO_CROSSINGS
+        ends_differ = abs(walls.end[-1] - walls.start[0]) > JOINED
+        crossings = self_crossings(walls, closed=False) if ends_differ else NO_CROSSINGS
     stations, points = crossings.places, crossings.points
     if not len(points) or len(walls) < 3:
         return None
@@ -194,11 +200,11 @@ def _in_line(walls: PieceArrays, rows: range) -> int:
     return rows[-1]
 
 
-def _may_be_walls(walls: PieceArrays, outward: range, beyond: float, most: float) -> set[int]:
+def _may_be_walls(walls: PieceArrays, outward: range, beyond: float, max_share: float) -> set[int]:
     """Return the rows, from the crossing `outward`, that are taken for leads but may be walls.
 
-    They are lines that bend off the first of these rows, and the rows of its own element if more than the share `most`
-    of that lies beyond the crossing, `beyond` (mm) of the first row.  If the crossing is a joint, the moves past it are
+    They are lines that bend off the first of these rows, and the rows of its own element if more than `max_share` of
+    that lies beyond the crossing, `beyond` (mm) of the first row.  If the crossing is a joint, the moves past it are
     leads on purpose.
     """
     if beyond <= JOINED:
@@ -209,7 +215,7 @@ def _may_be_walls(walls: PieceArrays, outward: range, beyond: float, most: float
     element = float(walls.length[min(far, near) : max(far, near) + 1].sum())
     in_line = range(outward[0], far + outward.step, outward.step)
     beyond += float(walls.length[list(in_line[1:])].sum())
-    return rows | set(in_line) if beyond > most * element else rows
+    return rows | set(in_line) if beyond > max_share * element else rows
 
 
 def _between(path: Path, begin: int, end: int, at: Point) -> Path:
@@ -250,14 +256,14 @@ def _begun_at(path: Path, at: Point) -> Path:
     return Path.of(points, path.centers, path.turns)
 
 
-def _is_clear(run: Path, left: PieceArrays, side: Side) -> bool:
+def _is_clear(run: Path, walls: PieceArrays, side: Side) -> bool:
     """True if a run, which meets the closed walls only where it begins, ends off them on the cutter's side.
 
     A run that ends on the walls, such as part of a full circle, belongs to them.
     """
     pieces = piece_arrays(run)
-    pairs = pairs_of(pieces, left, rounding_of(left))
+    pairs = pairs_of(pieces, walls, rounding_of(walls))
     far = pieces.end[-1:]
     near = nearest(pairs, np.array([len(pieces) - 1]), far)
-    on_part = on_part_side(left, far, near, sided(side, left, NO_CROSSINGS, closed=True))
-    return bool(near.apart.min() > JOINED) and not on_part.any()
+    on_part = on_part_side(walls, far, near, with_sides(side, walls, NO_CROSSINGS, closed=True))
+    return bool(near.distance.min() > JOINED) and not on_part.any()

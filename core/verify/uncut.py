@@ -14,7 +14,7 @@ from core.geometry.piece import Side, point_of
 from core.geometry.piece_arrays import PieceArrays, at, batches_by_kind, fraction
 from core.tolerance import CLOSED, ON_PATH, STOCK
 from core.verify.farthest import farthest
-from core.verify.pairs import Intervals, Pairs, concentric, covering, nearest, pairs_of, rounding_of, within
+from core.verify.pairs import Intervals, Pairs, concentric, nearest, other_within, pairs_of, rounding_of, within
 from core.verify.verdict import Uncut
 
 MAX_POINT_LENGTH: Final = 1e-6
@@ -32,7 +32,7 @@ class Gaps:
     """k stretches of a path that the other path does not reach.
 
     (2, k): the first and the last `pieces` of each, the points at its `ends`, and which ends are `reached`.  (k,): the
-    point `farthest` from the other path, and its distance `apart`.  `corner` is the only place from which both ends are
+    point `farthest` from the other path, and its `distance`.  `corner` is the only place from which both ends are
     reached, `area` lies between the stretch and the circle of the radius about `corner`, positive if the stretch runs
     counterclockwise; both are NaN without such a place."""
 
@@ -41,16 +41,16 @@ class Gaps:
     ends: Points
     reached: Flags
     farthest: Points
-    apart: Floats
+    distance: Floats
     corner: Points
     area: Floats
 
 
 def covered_walls(pairs: Pairs, radius: float, *, closed: bool) -> Flags:
     """Return (n,) True for walls with nothing uncut worth reporting, by their pairs with the center path's pieces."""
-    whole = np.zeros(len(pairs.others), np.bool_)
-    whole[pairs.j[covering(pairs, radius + pairs.grant)]] = True
-    return whole | _in_thin_runs(pairs, whole, radius, closed=closed)
+    fully_reached = np.zeros(len(pairs.others), np.bool_)
+    fully_reached[pairs.j[other_within(pairs, radius + pairs.tolerance)]] = True
+    return fully_reached | _in_thin_runs(pairs, fully_reached, radius, closed=closed)
 
 
 def uncut(
@@ -68,7 +68,7 @@ def uncut(
     if not len(gaps.intervals):
         return ()
     numbers, intervals = surface.numbers[walls.rows], gaps.intervals
-    length, thick = intervals.last - intervals.first, gaps.apart - radius
+    length, thick = intervals.last - intervals.first, gaps.distance - radius
     area = np.where(gaps.area * side.sign > 0.0, np.abs(gaps.area), nan)
     at_start, at_end = intervals.first == 0.0, intervals.last == walls.stations[-1]
     area[~gaps.reached.all(axis=0)] = nan
@@ -104,28 +104,28 @@ def _over_start(before: Uncut, after: Uncut, area: float | None) -> Uncut:
     )
 
 
-def _in_thin_runs(pairs: Pairs, whole: Flags, radius: float, *, closed: bool) -> Flags:
+def _in_thin_runs(pairs: Pairs, fully_reached: Flags, radius: float, *, closed: bool) -> Flags:
     """True for walls between two fully reached ones (or an open end), if no wall between these leaves more than STOCK:
     fine chords of a curve leave that little at every joint, and it is not reported."""
-    thick = ~whole
-    thick[pairs.j[covering(pairs, np.full(len(pairs.j), radius + STOCK))]] = False
-    runs = whole.cumsum()
-    if closed and not whole[-1]:
+    thick = ~fully_reached
+    thick[pairs.j[other_within(pairs, np.full(len(pairs.j), radius + STOCK))]] = False
+    runs = fully_reached.cumsum()
+    if closed and not fully_reached[-1]:
         # a run may go on over START
         runs[runs == runs[-1]] = 0
-    reported = np.zeros(len(whole) + 1, np.bool_)
+    reported = np.zeros(len(fully_reached) + 1, np.bool_)
     reported[runs[thick]] = True
     thin: Flags = ~reported[runs]
     return thin
 
 
-def gaps_of(pairs: Pairs, whole: Flags, radius: float) -> Gaps:
+def gaps_of(pairs: Pairs, fully_reached: Flags, radius: float) -> Gaps:
     """Return the stretches of `pairs.pieces` farther than `radius` (mm) from the other path, if longer than STOCK.
 
-    `whole` (n,) marks the pieces that are known to be reached from end to end.
+    `fully_reached` (n,) marks the pieces that are known to be reached from end to end.
     """
     pieces, stations = pairs.pieces, pairs.stations
-    cut = _reached(pairs, whole, radius)
+    cut = _reached(pairs, fully_reached, radius)
     first, last = np.append(0.0, cut.last), np.append(cut.first, stations[-1])
     wide = (last - first > STOCK).nonzero()[0]
     gaps = Intervals(first[wide], last[wide])
@@ -138,36 +138,36 @@ def gaps_of(pairs: Pairs, whole: Flags, radius: float) -> Gaps:
         nothing = np.zeros(ends.shape, np.bool_)
         return Gaps(gaps, index, ends, nothing, ends[0], np.full(len(gaps), inf), unknown + 0j, unknown)
     far, (corner, reached) = farthest(pairs, gaps), _corners(pairs, index, ends, radius)
-    return Gaps(gaps, index, ends, reached, far.point, far.apart, corner, _areas(pairs, gaps, corner, radius))
+    return Gaps(gaps, index, ends, reached, far.point, far.distance, corner, _areas(pairs, gaps, corner, radius))
 
 
-def _reached(pairs: Pairs, whole: Flags, radius: float) -> Intervals:
+def _reached(pairs: Pairs, fully_reached: Flags, radius: float) -> Intervals:
     """Return the stretches of the pieces within the radius of the others.
 
     The tolerance for rounding and uneven arcs helps to decide whether a place is reached; where a stretch ends is then
     settled with the radius alone.
     """
-    stations, limit = pairs.stations, radius + pairs.grant
+    stations, limit = pairs.stations, radius + pairs.tolerance
     rows = (pairs.least <= limit).nonzero()[0]
     begin, end = np.empty((2, len(rows)))
     for batch in batches_by_kind(pairs.pieces.arcs[pairs.i[rows]], pairs.others.arcs[pairs.j[rows]]):
         begin[batch], end[batch] = _between_feet(pairs, rows[batch], limit[rows[batch]])
     piece = pairs.i[rows]
-    bent = pairs.pieces.arcs[piece] | pairs.others.arcs[pairs.j[rows]]
-    unsure = bent & ((end - begin) * pairs.pieces.length[piece] > MAX_POINT_LENGTH)
+    curved = pairs.pieces.arcs[piece] | pairs.others.arcs[pairs.j[rows]]
+    unsure = curved & ((end - begin) * pairs.pieces.length[piece] > MAX_POINT_LENGTH)
     unsure[unsure] = ~concentric(pairs.keep(rows[unsure]))
-    unsure |= pairs.least[rows] < radius - pairs.grant[rows]
+    unsure |= pairs.least[rows] < radius - pairs.tolerance[rows]
     sure = (~unsure & (begin <= end)).nonzero()[0]
     start, length = stations[piece[sure]], pairs.pieces.length[piece[sure]]
-    known = whole.nonzero()[0]
+    known = fully_reached.nonzero()[0]
     measured = within(pairs, rows[unsure], limit[rows[unsure]])
-    drawn = np.zeros(len(pairs.i) + 1, np.bool_)
-    drawn[measured.pair] = True
+    was_measured = np.zeros(len(pairs.i) + 1, np.bool_)
+    was_measured[measured.pair] = True
     first = np.concatenate((stations[known], start + begin[sure] * length, measured.first))
     last = np.concatenate((stations[known + 1], start + end[sure] * length, measured.last))
     pair = np.concatenate((np.full(len(known), -1), rows[sure], measured.pair))
-    del limit, begin, end, piece, bent, unsure, sure, start, length, measured
-    return _settled(pairs, first, last, pair, drawn, radius)
+    del limit, begin, end, piece, curved, unsure, sure, start, length, measured
+    return _joined_stretches(pairs, first, last, pair, was_measured, radius)
 
 
 def _between_feet(pairs: Pairs, rows: Rows, limit: Floats) -> tuple[Floats, Floats]:
@@ -186,9 +186,13 @@ def _between_feet(pairs: Pairs, rows: Rows, limit: Floats) -> tuple[Floats, Floa
     return np.where(near, fractions, 2.0).min(axis=0), np.where(near, fractions, -2.0).max(axis=0)
 
 
-def _settled(pairs: Pairs, first: Floats, last: Floats, pair: Rows, drawn: Flags, radius: float) -> Intervals:
-    """Join the parts from `first` to `last` to stretches; ends that belong to a `drawn` pair move inward to where that
-    pair is exactly the radius apart."""
+def _joined_stretches(
+    pairs: Pairs, first: Floats, last: Floats, pair: Rows, was_measured: Flags, radius: float
+) -> Intervals:
+    """Join the parts from `first` to `last` to stretches.
+
+    Ends of pairs with `was_measured` move inward to where the pair is exactly the radius apart.
+    """
     order = first.argsort(kind="stable")
     first, last = first[order], last[order]
     furthest = np.maximum.accumulate(last)
@@ -197,13 +201,13 @@ def _settled(pairs: Pairs, first: Floats, last: Floats, pair: Rows, drawn: Flags
     begin = begins.nonzero()[0]
     if not len(begin):
         return Intervals(first, last)
-    holder = np.maximum.accumulate(np.where(last == furthest, np.arange(len(last)), 0))
-    end = holder[np.append(begin[1:], len(first)) - 1]
+    reaching = np.maximum.accumulate(np.where(last == furthest, np.arange(len(last)), 0))
+    end = reaching[np.append(begin[1:], len(first)) - 1]
     pair = pair[order[np.concatenate((begin, end))]]
     ends = np.concatenate((first[begin], last[end]))
-    loose = drawn[pair].nonzero()[0]
+    movable = was_measured[pair].nonzero()[0]
     inward = np.repeat((1.0, -1.0), len(begin))
-    ends[loose] += inward[loose] * _overshoot(pairs, pair[loose], ends[loose], inward[loose], radius)
+    ends[movable] += inward[movable] * _overshoot(pairs, pair[movable], ends[movable], inward[movable], radius)
     low, high = ends[: len(begin)], ends[len(begin) :]
     return Intervals(low, np.maximum(low, high))
 
@@ -211,14 +215,14 @@ def _settled(pairs: Pairs, first: Floats, last: Floats, pair: Rows, drawn: Flags
 def _overshoot(pairs: Pairs, pair: Rows, ends: Floats, inward: Floats, radius: float) -> Floats:
     """Return how far `inward` (+1 or -1 along the path) from these ends the distance is the radius, or least.
 
-    The tolerance moves an end by up to sqrt(2 r grant) if the reach ends in a circle about the end of a
+    The tolerance moves an end by up to sqrt(2 r tolerance) if the reach ends in a circle about the end of a
     piece; the end stops at the foot of that end if the piece is exactly a radius away.
     """
-    i, j, grant = pairs.i[pair], pairs.j[pair], pairs.grant[pair]
+    i, j, tolerance = pairs.i[pair], pairs.j[pair], pairs.tolerance[pair]
     piece, other = pairs.pieces.take(i), pairs.others.take(j)
     fractions = np.concatenate((band_fractions(piece, other, np.full(len(pair), radius)), feet(piece, other)))
     moved = (pairs.stations[i] + fractions * piece.length - ends) * inward
-    widest = 2.0 * np.sqrt(2.0 * (radius + grant) * grant)
+    widest = 2.0 * np.sqrt(2.0 * (radius + tolerance) * tolerance)
     least: Floats = np.where((moved > 0.0) & (moved < widest), moved, inf).min(axis=0)
     return np.where(np.isinf(least), 0.0, least)
 
@@ -234,13 +238,13 @@ def _corners(pairs: Pairs, index: Rows, ends: Points, radius: float) -> tuple[Po
 
 def _some_corners(pairs: Pairs, index: Rows, ends: Points, radius: float) -> tuple[Points, Flags]:
     near = [nearest(pairs, rows, points) for rows, points in zip(index, ends, strict=True)]
-    reached = np.array([match.apart[match.first] <= radius + 4.0 * ON_PATH for match in near])
+    reached = np.array([match.distance[match.first] <= radius + 4.0 * ON_PATH for match in near])
     corner = np.full(len(index[0]), complex(nan, nan))
     for end in (1, 0):
         k, other = near[end].k, pairs.others.take(near[end].j)
         centers = at(other, foot(other, ends[end, k]))
-        off = np.abs(np.abs(ends[:, k] - centers) - radius) > ON_EDGE
-        on_edge = reached[end, k] & ~(off & reached[:, k]).any(axis=0)
+        is_off = np.abs(np.abs(ends[:, k] - centers) - radius) > ON_EDGE
+        on_edge = reached[end, k] & ~(is_off & reached[:, k]).any(axis=0)
         corner[k[on_edge]] = centers[on_edge]
     return corner, reached
 

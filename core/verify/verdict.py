@@ -117,7 +117,7 @@ class Verdict:
     Complete for a closed contour that does not cross itself.  For any other contour it has the rows that meet a wall,
     and those that are inside the part at their ends, in their middles or where they gouge most.
     """
-    loose: tuple[int, ...] = ()
+    may_cut_air: tuple[int, ...] = ()
     """Rows that may be farther from the surface than the radius somewhere, lead moves among them."""
     backwards: tuple[int, ...] = ()
     """Rows that run against the direction of all walls that they touch."""

@@ -28,7 +28,7 @@ def test_the_farthest_place_at_the_top_of_an_arc_needs_no_search(
     )
     other, whole = piece_arrays(floor), Intervals(np.zeros(1), walked.length)
     far = farthest(pairs_of(walked, other, rounding_of(other)), whole)
-    assert far.apart.item() == pytest.approx(2.0, abs=1e-14)
+    assert far.distance.item() == pytest.approx(2.0, abs=1e-14)
     assert far.place.item() == pytest.approx(5.0 * asin(-begin / 5.0), abs=1e-9)
 
 
@@ -38,4 +38,4 @@ def test_between_two_walls_it_is_where_both_are_as_far(begin: float, monkeypatch
     walked, other = piece_arrays(lines((0, 0), (4, 0))), piece_arrays(lines((-1, -1), (-1, 9), (5, 9), (5, -1)))
     stretch = Intervals(np.array([begin]), walked.length)
     far = farthest(pairs_of(walked, other, rounding_of(other)), stretch)
-    assert (far.place.item(), far.apart.item()) == pytest.approx((2.0, 3.0), abs=1e-12)
+    assert (far.place.item(), far.distance.item()) == pytest.approx((2.0, 3.0), abs=1e-12)

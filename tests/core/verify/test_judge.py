@@ -388,4 +388,4 @@ def test_without_what_stays_uncut_the_rest_of_the_verdict_is_the_same() -> None:
     assert whole.uncut
     assert whole.gouges
     assert not gouged.uncut
-    assert (gouged.gouges, gouged.wrong_side, gouged.loose) == (whole.gouges, whole.wrong_side, whole.loose)
+    assert (gouged.gouges, gouged.wrong_side, gouged.may_cut_air) == (whole.gouges, whole.wrong_side, whole.may_cut_air)

@@ -146,7 +146,7 @@ def test_loops_judged_together_are_judged_as_each_alone(seed: int) -> None:
     gouged = sum(gouge.extent for one in alone for gouge in one.gouges)
     assert sum(gouge.extent for gouge in together.gouges) == pytest.approx(gouged, abs=1e-5)
     # where a contour crosses itself sides are asked outside of gouges only
-    for name in ("backwards", "loose", *(() if together.crosses_itself else ("wrong_side",))):
+    for name in ("backwards", "may_cut_air", *(() if together.crosses_itself else ("wrong_side",))):
         rows = [row + k for row, one in zip(first, alone, strict=False) for k in getattr(one, name)]
         assert list(getattr(together, name)) == rows
     assert together.clearance == pytest.approx(min(one.clearance for one in alone), abs=1e-12)
