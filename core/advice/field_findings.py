@@ -105,13 +105,19 @@ def _blank_feeds(block: Block, solved: SolvedBlock, program: Program) -> Iterato
     if not solved.determined or solved.plunge_feed is None:
         return
     count = len(block.segments)
-    blank = next((index for index, segment in enumerate(block.segments) if segment.feed is not None), count)
-    if not blank:
+    count_blank = next((index for index, segment in enumerate(block.segments) if segment.feed is not None), count)
+    if not count_blank:
         return
     feed_of_start = solved.segments[0].values.get("feed")
     if isinstance(feed_of_start, Solved) and feed_of_start.origin is Origin.TOOL:
         return
-    subject = "the contour is" if blank == count else "it is" if blank == 1 else f"segments 1 to {blank} are"
+    subject = (
+        "the contour is"
+        if count_blank == count
+        else "it is"
+        if count_blank == 1
+        else f"segments 1 to {count_blank} are"
+    )
     feed = show(from_mm(solved.plunge_feed, program.unit), Kind.FEED, program.unit)
     text = f"FEED is blank: {subject} cut at PLUNGE FEED {feed}. Enter FEED."
     yield Finding("PLUNGE_FED", Severity.WARNING, text, 1, "feed")
@@ -127,11 +133,11 @@ def _allowances_without_finish_tool(block: Block, program: Program) -> Iterator[
         if not isinstance(typed, Number) or typed.value <= 0.0:
             continue
         label = field_of(Form.PARAMETERS, name).label
-        more = "" if len(program.blocks) == 1 else ", which counts for all blocks"
+        scope = "" if len(program.blocks) == 1 else ", which counts for all blocks"
         text = f"{label} {{value}} has no effect: FINISH TOOL is 0. Enter FINISH TOOL on START, or 0 in {label} "
         value = to_mm(typed.value, program.unit)
         yield Finding(
-            "NOT_LEFT", Severity.WARNING, text + f"on PROGRAM PARAMETERS{more}.", 0, "finish_tool", value=value
+            "NOT_LEFT", Severity.WARNING, text + f"on PROGRAM PARAMETERS{scope}.", 0, "finish_tool", value=value
         )
 
 
@@ -183,15 +189,15 @@ def _one_pass(block: Block, solved: SolvedBlock, program: Program) -> Iterator[F
     )
     if offset is None or least is None or offset > least + ON_PATH:
         return
-    plain = block.cutter_comp.removeprefix("PROFILE ")
+    side = block.cutter_comp.removeprefix("PROFILE ")
     if least > 0.0:
         text = (
-            f"MAX OFFSET {{value}} is no more than FINISH XY {{0}}: PROFILE {plain} makes one roughing pass, the same "
+            f"MAX OFFSET {{value}} is no more than FINISH XY {{0}}: PROFILE {side} makes one roughing pass, the same "
         )
-        text += f"as {plain}. Enter a larger MAX OFFSET on PROGRAM PARAMETERS, or {plain} in CUTTER COMP."
+        text += f"as {side}. Enter a larger MAX OFFSET on PROGRAM PARAMETERS, or {side} in CUTTER COMP."
     else:
-        text = f"MAX OFFSET is {{value}}: PROFILE {plain} makes one pass, the same as {plain}. Enter MAX OFFSET on "
-        text += f"PROGRAM PARAMETERS, or {plain} in CUTTER COMP."
+        text = f"MAX OFFSET is {{value}}: PROFILE {side} makes one pass, the same as {side}. Enter MAX OFFSET on "
+        text += f"PROGRAM PARAMETERS, or {side} in CUTTER COMP."
     yield Finding("ONE_PASS", Severity.WARNING, text, 0, "cutter_comp", value=offset, lengths=(least,))
 
 
@@ -211,7 +217,7 @@ def _no_contour(solved: SolvedBlock) -> Iterator[Finding]:
 def _in_force(program: Program, form: Form, name: str) -> float | None:
     """Return a number of PROGRAM PARAMETERS or PART SETUP in millimeters, as typed or its default; None if refused."""
     typed: Typed = getattr(program.setup if form is Form.SETUP else program.parameters, name)
-    usual = default_value(name, program.unit)
-    if typed is None and usual is not None:
-        typed = Number(usual)
+    default = default_value(name, program.unit)
+    if typed is None and default is not None:
+        typed = Number(default)
     return usable(field_of(form, name), typed, program.unit)

@@ -20,7 +20,7 @@ from core.verify.surface import Surface
 BLEND_CODES: Final = frozenset({"BLEND_GOUGES", "BLEND_LEAVES"})
 """Codes of the findings that a smaller BLEND OFFSET may mend."""
 
-COARSE_STEPS: Final = 16
+COARSE_TRIALS: Final = 16
 """Sizes, evenly spaced from the typed one down, that are tried before the bisection: an arc may gouge, a smaller one
 fit, and a still smaller one gouge again."""
 
@@ -68,16 +68,16 @@ def largest_blend(
                 return False
         return True
 
-    fails = typed + 1
-    for share in range(COARSE_STEPS, -1, -1):
-        clean = typed * share // COARSE_STEPS
-        if clean == 0 or fits(clean):
+    too_large = typed + 1
+    for share in range(COARSE_TRIALS, -1, -1):
+        fitting = typed * share // COARSE_TRIALS
+        if fitting == 0 or fits(fitting):
             break
-        fails = clean
-    while fails - clean > 1:
-        middle = (clean + fails) // 2
-        clean, fails = (middle, fails) if fits(middle) else (clean, middle)
-    return size(clean) if clean or not _gouges_without_blends(surface, paths) else None
+        too_large = fitting
+    while too_large - fitting > 1:
+        middle = (fitting + too_large) // 2
+        fitting, too_large = (middle, too_large) if fits(middle) else (fitting, middle)
+    return size(fitting) if fitting or not _gouges_without_blends(surface, paths) else None
 
 
 def _passes(paths: BlockPaths) -> Iterator[tuple[tuple[CenterPath, ...], float, float]]:

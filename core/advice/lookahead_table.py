@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass
+from typing import NamedTuple
 
 from core.comp.compensate import compensate_all
 from core.comp.compensated import Compensated
@@ -46,6 +47,13 @@ class CuttingSetup:
         )
 
 
+class Effect(NamedTuple):
+    """The end of a sentence that says what a clean value does, and the lengths (mm) for its places {0}, {1}."""
+
+    text: str
+    lengths: tuple[float, ...] = ()
+
+
 @dataclass(frozen=True, eq=False, slots=True)
 class Row:
     """One look-ahead value: its path and the verdicts on it; lengths in millimeters."""
@@ -76,12 +84,14 @@ class Row:
         return tuple(dict.fromkeys(self.compensated.deleted.segments.tolist()))
 
     @property
-    def effect(self) -> tuple[str, tuple[float, ...]]:
-        """What a clean value does, as the end of a sentence, and the lengths for its places {0}, {1}."""
+    def effect(self) -> Effect:
+        """What a clean value does."""
         if self.verdict.uncut:
-            return "does not gouge but leaves {0} uncut", (self.uncut,)
+            return Effect("does not gouge but leaves {0} uncut", (self.uncut,))
         segments = [number for number in self.deleted if number == int(number)]
-        return f"does not gouge but deletes {enumerated('segment', segments)}" if segments else "is clean", ()
+        if segments:
+            return Effect(f"does not gouge but deletes {enumerated('segment', segments)}")
+        return Effect("is clean")
 
 
 @dataclass(frozen=True, eq=False, slots=True)

@@ -38,16 +38,16 @@ def by_severity(findings: Sequence[Finding]) -> tuple[Finding, ...]:
     return tuple(sorted(findings, key=lambda finding: _ORDER[finding.severity]))
 
 
-def path_findings(work: BlockPaths) -> tuple[Finding, ...]:
+def path_findings(paths: BlockPaths) -> tuple[Finding, ...]:
     """Return all findings on the posted path, its blends and the roughing passes."""
-    assert work.verdict is not None
-    assert work.compensated is not None
+    assert paths.verdict is not None
+    assert paths.compensated is not None
     return (
-        *(work.compensated if work.best is None else work.best).findings,
-        *verdict_findings(work.verdict, work.surface, move_names(work)),
-        *contact_findings(tuple(_air_cuts(work, work.verdict)), work.verdict.backwards),
-        *blend_findings(work.loops, work.verdict.gouges, work.verdict.wrong_side),
-        *rough_findings(work.rough, work.compensated if work.best is None else None),
+        *(paths.compensated if paths.best is None else paths.best).findings,
+        *verdict_findings(paths.verdict, paths.surface, move_names(paths)),
+        *contact_findings(tuple(_air_cuts(paths, paths.verdict)), paths.verdict.backwards),
+        *blend_findings(paths.loops, paths.verdict.gouges, paths.verdict.wrong_side),
+        *rough_findings(paths.rough, paths.compensated if paths.best is None else None),
     )
 
 
@@ -69,24 +69,24 @@ def _rows(loops: Sequence[CenterPath]) -> Iterator[tuple[CenterPath, _Rows]]:
         first = rows.end
 
 
-def _air_cuts(work: BlockPaths, verdict: Verdict) -> Iterator[AirCut]:
+def _air_cuts(paths: BlockPaths, verdict: Verdict) -> Iterator[AirCut]:
     """Yield the air cuts of the paths without their blends."""
-    for loop, rows in _rows(work.loops):
-        if any(rows.path <= row < rows.lead_out for row in verdict.loose):
-            yield from air_cuts(work.surface, verdict.radius, loop.path)
+    for loop, rows in _rows(paths.loops):
+        if any(rows.path <= row < rows.lead_out for row in verdict.may_cut_air):
+            yield from air_cuts(paths.surface, verdict.radius, loop.path)
 
 
-def move_names(work: BlockPaths) -> Names:
+def move_names(paths: BlockPaths) -> Names:
     """Return a function that names the moves of all loops, by their rows in the verdict."""
 
     def name(row: int, _number: float) -> str:
-        for loop, rows in _rows(work.loops):
+        for loop, rows in _rows(paths.loops):
             if row < rows.path:
                 return "the blend-in arc"
             if row < rows.lead_out:
-                return move_name(loop.path, row - rows.path, work.surface)
+                return move_name(loop.path, row - rows.path, paths.surface)
             if row < rows.end:
-                return _lead_out_name(loop, row - rows.lead_out, work.surface)
+                return _lead_out_name(loop, row - rows.lead_out, paths.surface)
         raise IndexError(row)
 
     return name
@@ -95,8 +95,8 @@ def move_names(work: BlockPaths) -> Names:
 def _lead_out_name(loop: CenterPath, row: int, surface: Path) -> str:
     lead = loop.lead_out
     # the overlap's arcs share centers with the path's own, the blend arc does not
-    again = bool((as_complex(loop.path.centers) == as_complex(lead.centers)[row]).any())
-    if row == len(lead) - 1 and lead.turns[row] and not again:
+    repeats_path = bool((as_complex(loop.path.centers) == as_complex(lead.centers)[row]).any())
+    if row == len(lead) - 1 and lead.turns[row] and not repeats_path:
         return "the blend-out arc"
     return f"{move_name(lead, row, surface)} past START"
 
@@ -112,16 +112,18 @@ def blend_findings(
     for loop, rows in _rows(loops):
         into, out = ("in", loop.lead_in, rows.lead_in, rows.path), ("out", loop.lead_out, rows.lead_out, rows.end)
         for name, lead, first, last in (into, out):
-            hit = next((gouge for gouge in gouges if first <= gouge.path_piece < last), None)
-            if hit is not None:
+            gouging = next((gouge for gouge in gouges if first <= gouge.path_piece < last), None)
+            if gouging is not None:
                 text = f"The blend-{name} arc gouges {{value}} deep. Start elsewhere or reduce BLEND OFFSET with F4."
-                where = hit.surface_number, "blend_offset", hit.surface_at, hit.depth
+                where = gouging.surface_number, "blend_offset", gouging.surface_at, gouging.depth
                 yield Finding("BLEND_GOUGES", Severity.ERROR, text, *where)
             if any(first <= row < last for row in wrong_side):
                 # its free end
-                end, way = (0, "from") if name == "in" else (-1, "to")
+                end, preposition = (0, "from") if name == "in" else (-1, "to")
                 x, y = lead.points[end].tolist()
-                text = f"The blend-{name} arc {way} X {{x}} Y {{y}} crosses a wall. Reduce BLEND OFFSET with F4."
+                text = (
+                    f"The blend-{name} arc {preposition} X {{x}} Y {{y}} crosses a wall. Reduce BLEND OFFSET with F4."
+                )
                 yield Finding("BLEND_LEAVES", Severity.WARNING, text, float(lead.numbers[end]), "blend_offset", (x, y))
 
 
@@ -139,23 +141,23 @@ def rough_findings(rough: Sequence[RoughPass], finish: Compensated | None) -> It
 
 def _rough_errors(rough_pass: RoughPass, *, posts_control: bool) -> Iterator[Finding]:
     for gouge in rough_pass.verdict.gouges[:1]:
-        left = rough_pass.stock - gouge.depth
-        where = gouge.surface_number, None, gouge.surface_at, abs(left), (rough_pass.stock,)
-        if left < -GOUGE:
+        stock_left = rough_pass.stock - gouge.depth
+        where = gouge.surface_number, None, gouge.surface_at, abs(stock_left), (rough_pass.stock,)
+        if stock_left < -GOUGE:
             text = "Roughing that leaves {0} gouges {value} deep at X {x} Y {y}."
             yield Finding("ROUGH_GOUGES", Severity.ERROR, text, *where)
         else:
             text = "Roughing that should leave {0~value} leaves only {value~0} at X {x} Y {y}."
             yield Finding("ROUGH_STOCK", Severity.WARNING, text, *where)
     if rough_pass.verdict.wrong_side or not rough_pass.verdict.judged:
-        what = "runs on the wrong side of the contour" if rough_pass.verdict.judged else "cannot be judged"
-        text = f"Roughing that leaves {{0}} {what}."
+        fault = "runs on the wrong side of the contour" if rough_pass.verdict.judged else "cannot be judged"
+        text = f"Roughing that leaves {{0}} {fault}."
         yield Finding("ROUGH_GOUGES", Severity.ERROR, text, lengths=(rough_pass.stock,))
     if not rough_pass.loops:
-        text = "No room for the {0} roughing pass: skipped."
+        text = "Roughing that leaves {0} has no room: it is skipped."
         back = any(finding.code == NO_PATH and finding.field for finding in rough_pass.compensated.findings)
         if posts_control and back:
-            text = "The {0} roughing pass comes back to its start next to a corner and is skipped. "
+            text = "Roughing that leaves {0} comes back to its start next to a corner: it is skipped. "
             text += "Start in the middle of a side."
         yield Finding("ROUGH_EMPTY", Severity.WARNING, text, lengths=(rough_pass.stock,))
 
@@ -182,30 +184,32 @@ def z_step_findings(steps: Sequence[ZStep]) -> tuple[Finding, ...]:
     return (*_largest_step(falls, "down"), *_largest_step(rises, "up"))
 
 
-def _largest_step(steps: Sequence[ZStep], way: str) -> tuple[Finding, ...]:
+def _largest_step(steps: Sequence[ZStep], direction: str) -> tuple[Finding, ...]:
     if not steps:
         return ()
     rise, number, at = steps[0]
     more = f" There are {len(steps)} such places." if len(steps) > 1 else ""
-    text = f"The tool goes straight {way} {{value}} at X {{x}} Y {{y}}: the ramp to Z END is shortened there.{more}"
+    text = (
+        f"The tool goes straight {direction} {{value}} at X {{x}} Y {{y}}: the ramp to Z END is shortened there.{more}"
+    )
     return (Finding("Z_STEP", Severity.WARNING, text, number, "z_end", at, abs(rise)),)
 
 
-def nearest_place(work: BlockPaths | None) -> Approach | None:
+def nearest_place(paths: BlockPaths | None) -> Approach | None:
     """Return where the posted path comes nearest to the surface."""
-    return None if work is None or work.verdict is None else work.verdict.closest
+    return None if paths is None or paths.verdict is None else paths.verdict.closest
 
 
-def better_path_findings(best: BestPath, apart: Separation) -> tuple[Finding, ...]:
+def better_path_findings(best: BestPath, separation: Separation) -> tuple[Finding, ...]:
     """Report what the best path would cut that the control's does not, or that there is no best path."""
     if not best.loops:
         return (Finding("NO_BEST", Severity.INFO, "The tool does not fit. Use a smaller one."),)
-    if apart.length <= SMALLEST_SHOWN_LENGTH or not apart.stretches:
+    if separation.length <= SMALLEST_SHOWN_LENGTH or not separation.stretches:
         return ()
-    first = apart.stretches[0]
+    first = separation.stretches[0]
     x, y = first.points[0].tolist()
-    text = "BEST runs {value} more, from X {x} Y {y} on. Set PATH with F4."
-    return (Finding("BEST_DIFFERS", Severity.INFO, text, float(first.numbers[0]), None, (x, y), apart.length),)
+    text = "The best path cuts {value} more, from X {x} Y {y} on. F4 sets PATH."
+    return (Finding("BEST_DIFFERS", Severity.INFO, text, float(first.numbers[0]), None, (x, y), separation.length),)
 
 
 def size_warning(radius: float, surface: Path, side: Side, *, closed: bool) -> tuple[Finding, ...]:
@@ -242,19 +246,19 @@ def open_finding(surface: Path, diameter: float, *, closed: bool) -> tuple[Findi
     Such a gap is seldom intended and invisible in the path.  So is one so small that the contour counts as closed,
     in which the path gouges as deep as the gap.  Fewer than three segments enclose nothing.
     """
-    apart = dist(surface.points[0].tolist(), surface.points[-1].tolist()) if len(surface) else 0.0
-    if apart <= GOUGE or (not closed and len(surface) < FEWEST_CLOSED):
+    gap = dist(surface.points[0].tolist(), surface.points[-1].tolist()) if len(surface) else 0.0
+    if gap <= GOUGE or (not closed and len(surface) < FEWEST_CLOSED):
         return ()
     number, place = float(surface.numbers[-1]), tuple(surface.points[-1].tolist())
     # show enough digits to tell the end from START, however small the gap
     lengths = (0.0, *surface.points[0].tolist())
-    if not closed and apart > diameter:
+    if not closed and gap > diameter:
         text = "The contour is open: it ends {value~0} from START."
-        return (Finding("OPEN", Severity.INFO, text, number, None, place, apart, lengths),)
-    what = "is treated as closed but" if closed else "is not closed: it"
-    text = f"The contour {what} ends {{value~0}} from START, at X {{x~1}} Y {{y~2}}. "
+        return (Finding("OPEN", Severity.INFO, text, number, None, place, gap, lengths),)
+    claim = "is treated as closed but" if closed else "is not closed: it"
+    text = f"The contour {claim} ends {{value~0}} from START, at X {{x~1}} Y {{y~2}}. "
     text += "Check START and the last segment."
-    return (Finding("NEARLY_CLOSED", Severity.WARNING, text, number, None, place, apart, lengths),)
+    return (Finding("NEARLY_CLOSED", Severity.WARNING, text, number, None, place, gap, lengths),)
 
 
 def turning_back(surface: Path, *, closed: bool) -> tuple[Finding, ...]:
@@ -265,8 +269,8 @@ def turning_back(surface: Path, *, closed: bool) -> tuple[Finding, ...]:
     """
     (into, leave), turns = tangents(surface), surface.turns
     turned = leave.conj() * next_in_ring(into)
-    back = (turned.real < -STRAIGHT_BACK * np.abs(turned)).nonzero()[0].tolist()
-    joints = [(row, (row + 1) % len(turns)) for row in back if closed or row + 1 < len(turns)]
+    reversals = (turned.real < -STRAIGHT_BACK * np.abs(turned)).nonzero()[0].tolist()
+    joints = [(row, (row + 1) % len(turns)) for row in reversals if closed or row + 1 < len(turns)]
     return tuple(_turned(surface, row, following) for row, following in joints if not (turns[row] and turns[following]))
 
 

@@ -13,7 +13,7 @@ from typing import Final
 
 import numpy as np
 
-from core.advice.lookahead_table import CuttingSetup, Row, Table, judge_lookaheads
+from core.advice.lookahead_table import CuttingSetup, Effect, Row, Table, judge_lookaheads
 from core.finding import Finding, Severity
 from core.geometry.path import Path
 from core.geometry.piece import Point
@@ -49,10 +49,10 @@ class ToolFits:
     value: int
     lengths: tuple[float, ...] = ()
 
-    def sentence(self, how: str = "") -> str:
+    def sentence(self, condition: str = "") -> str:
         """Return the end of a sentence: the diameter, its look-ahead, and the radius that the cutter leaves uncut."""
-        left = " It leaves the inside radius {0} uncut; {1} or smaller cuts it." if self.lengths else ""
-        return f"the largest that does not gouge{how}: {{value}}, with look-ahead {self.value}.{left}"
+        uncut_text = " It leaves the inside radius {0} uncut; {1} or smaller cuts it." if self.lengths else ""
+        return f"the largest that does not gouge{condition}: {{value}}, with look-ahead {self.value}.{uncut_text}"
 
 
 @dataclass(frozen=True, slots=True)
@@ -65,7 +65,7 @@ class StartMoved:
     segment: float
     at: Point
     value: int
-    effect: tuple[str, tuple[float, ...]]
+    effect: Effect
 
 
 def _recommended(setup: CuttingSetup, progress: Progress) -> Row | None:
@@ -82,22 +82,24 @@ def without_blends(setup: CuttingSetup) -> CuttingSetup | None:
 
 def lookahead_without_blends(setup: CuttingSetup, progress: Progress = silent) -> int | None:
     """Return the recommended look-ahead without blend moves; None if none is clean or there is no blend."""
-    bare = without_blends(setup)
-    row = None if bare is None else _recommended(bare, progress)
+    blendless = without_blends(setup)
+    row = None if blendless is None else _recommended(blendless, progress)
     return None if row is None else row.value
 
 
-def larger_tool_without_blends(setup: CuttingSetup, than: ToolFits | None, progress: Progress) -> ToolFits | None:
+def larger_tool_without_blends(
+    setup: CuttingSetup, with_blends: ToolFits | None, progress: Progress
+) -> ToolFits | None:
     """Return the largest clean tool with BLEND OFFSET 0, or None.
 
-    `than` is the tool that fits with blends: a tool less than `LARGER_BY` times as large is not offered.
+    `with_blends` is the tool that fits with blends: a tool less than `LARGER_BY` times as large is not offered.
     """
-    bare = without_blends(setup)
-    if bare is None:
+    blendless = without_blends(setup)
+    if blendless is None:
         return None
-    given = 0 if than is None else _steps(setup, than.diameter)
-    least = 0 if than is None else max(int(given * LARGER_BY), given + 1)
-    return largest_tool(bare, progress, least=least)
+    steps_with_blends = 0 if with_blends is None else _steps(setup, with_blends.diameter)
+    least = 0 if with_blends is None else max(int(steps_with_blends * LARGER_BY), steps_with_blends + 1)
+    return largest_tool(blendless, progress, least=least)
 
 
 def largest_tool(setup: CuttingSetup, progress: Progress = silent, *, least: int = 0) -> ToolFits | None:
@@ -106,25 +108,25 @@ def largest_tool(setup: CuttingSetup, progress: Progress = silent, *, least: int
     The smallest inside radius, often the limit, is tried first: if it is the limit, a larger tool that is clean only
     because it deletes such arcs is not searched for.  If a tool of `least` steps is not clean, the result is None.
     """
-    clean, fails = least, _steps(setup, 2.0 * setup.radius)
-    if clean >= fails or (clean and not _clean(setup, clean, progress)):
+    fitting, too_large = least, _steps(setup, 2.0 * setup.radius)
+    if fitting >= too_large or (fitting and not _clean(setup, fitting, progress)):
         return None
     limit = _smallest_inside_radius(setup)
-    tries = [] if limit is None else [_steps(setup, 2.0 * limit), _steps(setup, 2.0 * limit) + 1]
-    while fails - clean > 1:
-        size = tries.pop(0) if tries else (clean + fails) // 2
-        if not clean < size < fails:
+    first_sizes = [] if limit is None else [_steps(setup, 2.0 * limit), _steps(setup, 2.0 * limit) + 1]
+    while too_large - fitting > 1:
+        size = first_sizes.pop(0) if first_sizes else (fitting + too_large) // 2
+        if not fitting < size < too_large:
             continue
         if _clean(setup, size, progress):
-            clean = size
+            fitting = size
         else:
-            fails = size
-    row = _recommended(_with_tool(setup, clean), progress) if clean else None
+            too_large = size
+    row = _recommended(_with_tool(setup, fitting), progress) if fitting else None
     if row is None:
         return None
     fits = 0 if limit is None else _steps(setup, 2.0 * limit)
-    left = (limit, fits * setup.diameter_step) if limit is not None and 0 < fits < clean else ()
-    return ToolFits(clean * setup.diameter_step, row.value, left)
+    uncut_radius = (limit, fits * setup.diameter_step) if limit is not None and 0 < fits < fitting else ()
+    return ToolFits(fitting * setup.diameter_step, row.value, uncut_radius)
 
 
 def _smallest_inside_radius(setup: CuttingSetup) -> float | None:
@@ -234,9 +236,9 @@ def _remedies(setup: CuttingSetup, table: Table, progress: Progress) -> tuple[Fi
             _remedy("BLENDLESS", f"Without blend moves (BLEND OFFSET 0) look-ahead {value} is clean."),
             *remedies,
         )
-    bare = None if remedies else without_blends(setup)
-    if bare is not None:
-        remedies = _start_sentence(start_mid_side(bare, progress, MAX_STARTS_WITHOUT_BLENDS), blends=False)
+    blendless = None if remedies else without_blends(setup)
+    if blendless is not None:
+        remedies = _start_sentence(start_mid_side(blendless, progress, MAX_STARTS_WITHOUT_BLENDS), blends=False)
     tried = "No look-ahead, start or tool" if setup.closed else "No look-ahead or tool"
     remedies = (
         remedies
@@ -263,12 +265,12 @@ def why_not_clean(table: Table, calculated: int) -> tuple[Finding, ...]:
     lengths: tuple[float, ...] = ()
     if table.recommended is not None:
         effect, lengths = table.row(table.recommended).effect
-        help_ = f"Enter look-ahead {table.recommended}, which {effect}."
+        remedy = f"Enter look-ahead {table.recommended}, which {effect}."
     elif _starts_at_inside_corner(row):
-        help_ = "START is in an inside corner, where no look-ahead helps."
+        remedy = "START is in an inside corner, where no look-ahead helps."
     else:
-        help_ = "No look-ahead is clean."
-    text, number = f"CAL {calculated} gouges. {help_}", gouge.surface_number
+        remedy = "No look-ahead is clean."
+    text, number = f"CAL {calculated} gouges. {remedy}", gouge.surface_number
     at, depth = gouge.surface_at, gouge.depth
     return (Finding("CAL_NOT_CLEAN", Severity.WARNING, text, number, at=at, value=depth, lengths=lengths),)
 
@@ -295,8 +297,8 @@ def _too_small(row: Row, radius: float) -> tuple[Finding, ...]:
 def _start_sentence(start: StartMoved | None, *, blends: bool = True) -> tuple[Finding, ...]:
     if start is None:
         return ()
-    code, how = ("START_MID_SIDE", "") if blends else ("START_BLENDLESS", f", {_NO_BLENDS}")
-    text = f"Start in the middle of segment {start.segment:g}, at X {{x}} Y {{y}}{how}: "
+    code, condition = ("START_MID_SIDE", "") if blends else ("START_BLENDLESS", f", {_NO_BLENDS}")
+    text = f"Start in the middle of segment {start.segment:g}, at X {{x}} Y {{y}}{condition}: "
     effect, lengths = start.effect
     remedy = _remedy(code, f"{text}look-ahead {start.value} then {effect}.")
     return (replace(remedy, segment=start.segment, at=start.at, lengths=lengths),)
@@ -307,16 +309,16 @@ def _tool_sentences(setup: CuttingSetup, nearest: Row, progress: Progress) -> It
 
     Both are searched for with another start if the contour's own is an inside corner.
     """
-    where = ""
+    start_condition = ""
     if _starts_at_inside_corner(nearest):
         row = longest_segments(setup.surface)[0]
-        where = f" when the contour is started in the middle of segment {setup.surface.numbers[row]:g}"
+        start_condition = f" when the contour is started in the middle of segment {setup.surface.numbers[row]:g}"
         setup = replace(setup, surface=restarted(setup.surface, row))
     tool = largest_tool(setup, progress)
     larger = larger_tool_without_blends(setup, tool, progress)
     for fits, code, blends in ((tool, "TOOL_FITS", ""), (larger, "TOOL_BLENDLESS", f" {_NO_BLENDS}")):
         if fits is not None:
-            text = f"Tool too big; {fits.sentence(blends + where)}"
+            text = f"Tool too big; {fits.sentence(blends + start_condition)}"
             yield replace(_remedy(code, text), field="tool", value=fits.diameter, lengths=fits.lengths)
 
 

@@ -45,24 +45,24 @@ def in_ascii(text: str) -> str:
     Some signs become the plain ones that they are a variant of: whoever writes a comment replaces what would end it
     after this, not before.
     """
-    whole = DIAMETER.sub("DIA ", normalize("NFC", text))
+    composed = DIAMETER.sub("DIA ", normalize("NFC", text))
     return "".join(
-        sign if sign.isascii() else _plain(sign, whole[max(at - 1, 0) : at], whole[at + 1 : at + 2])
-        for at, sign in enumerate(whole)
+        sign if sign.isascii() else _plain(sign, composed[max(at - 1, 0) : at], composed[at + 1 : at + 2])
+        for at, sign in enumerate(composed)
     )
 
 
 def _plain(sign: str, before: str, after: str) -> str:
     """Return what stands for a character, in capitals if it is one and stands next to one."""
-    plain = REPLACEMENTS.get(sign) or REPLACEMENTS.get(sign.lower())
-    if plain is None:
+    replacement = REPLACEMENTS.get(sign) or REPLACEMENTS.get(sign.lower())
+    if replacement is None:
         bare = (part for part in normalize("NFKD", sign) if not combining(part))
         # 1½ is 1 1/2, not 11/2
         blank = " " if before.isdecimal() and sign.isnumeric() and not sign.isdecimal() else ""
         return blank + "".join(part if part.isascii() else REPLACEMENTS.get(part, "?") for part in bare)
     if not sign.isalpha():
-        return plain
+        return replacement
     in_capitals = any(neighbor.isupper() for neighbor in (before, after))
     if sign.isupper():
-        return plain.upper() if in_capitals else plain.capitalize()
-    return plain.upper() if sign == "ß" and in_capitals else plain
+        return replacement.upper() if in_capitals else replacement.capitalize()
+    return replacement.upper() if sign == "ß" and in_capitals else replacement

@@ -67,14 +67,14 @@ def control_program(
     written = write_program(cuts, control, frame, short_name or "PART", remarks)
     if isinstance(written, Refusal):
         return written
-    style, notes = STYLE_OF_CONTROL.get(control), [*_for_the_operator(jobs, cuts, unit, control)]
+    style, notes = STYLE_OF_CONTROL.get(control), [*_operator_notes(jobs, cuts, unit, control)]
     if style is not None and not style.comments and part.strip():
         text = f"PART NAME {printable(part)} is not in the file: {display_name(control)} has no comments."
         notes.append(Finding("PART_NAME", Severity.INFO, text, field="name"))
     return replace(written, notes=(*notes, *written.notes))
 
 
-def _for_the_operator(jobs: Sequence[Job], cuts: Sequence[PassToWrite], unit: Unit, control: str) -> Iterator[Finding]:
+def _operator_notes(jobs: Sequence[Job], cuts: Sequence[PassToWrite], unit: Unit, control: str) -> Iterator[Finding]:
     """Yield what the operator has to look after at the control."""
     if deleted := _with_deleted_segments(cuts):
         text = (
@@ -117,7 +117,7 @@ def _header(
         depth = f"Z {length_text(job.z_start, unit)} TO {length_text(job.z_bottom, unit)}"
         yield f"BLOCK {job.block} MILL CONTOUR CUTTER COMP. {job.comp} {depth}"
         yield from job.notes
-    for note in (*_for_the_operator(jobs, cuts, unit, control), *notes):
+    for note in (*_operator_notes(jobs, cuts, unit, control), *notes):
         block = "" if note.block is None or len(jobs) == 1 else f"BLOCK {note.block} "
         where = "" if note.segment is None else f"{block}SEGMENT {note.segment:g}: "
         text = sentence(note, unit)

@@ -80,8 +80,8 @@ def arc_parts(arc: Arc, grid: Grid, first: float = 0.0, last: float = 1.0) -> It
     start, end = ({0.0: arc.start, 1.0: arc.end}.get(share) or arc.point_at(share) for share in (first, last))
     sweep, radius = arc.sweep * (last - first), grid.fine(arc.radius)
     (cx, cy), (x, y) = arc.center, grid.point(start)
-    finer = 10**EXTRA_CENTER_DECIMALS
-    i, j = round((grid.fine(cx) - x) * finer), round((grid.fine(cy) - y) * finer)
+    center_scale = 10**EXTRA_CENTER_DECIMALS
+    i, j = round((grid.fine(cx) - x) * center_scale), round((grid.fine(cy) - y) * center_scale)
     height = radius * (1.0 - cos(sweep / 2) if abs(sweep) <= pi else 2.0)
     if radius >= MIN_RADIUS and _survives(start, end, (i, j), sweep, radius, grid):
         yield ArcPart(end, last, (i, j))
@@ -114,5 +114,5 @@ def _survives(start: Point, end: Point, center: Steps, sweep: float, radius: flo
 
 def feed_text(feed: float, grid: Grid) -> str:
     """Return a feed in program units per minute, without needless zeros."""
-    whole, _, decimal = f"{from_mm(feed, grid.unit):.{FEED_DECIMALS}f}".partition(".")
-    return f"{whole}.{decimal.rstrip('0') or '0'}"
+    integer, _, decimal = f"{from_mm(feed, grid.unit):.{FEED_DECIMALS}f}".partition(".")
+    return f"{integer}.{decimal.rstrip('0') or '0'}"

@@ -159,9 +159,9 @@ def _block_lines(job: Job, unit: Unit) -> Iterator[str]:
     comp = f"CUTTER COMP. {job.comp}" + (f" LOOKAHEAD {job.lookahead}" if job.lookahead else "")
     depth = f"Z {length_text(job.z_start, unit)} TO {length_text(job.z_bottom, unit)}"
     peck = f" PECK {length_text(job.peck_depth, unit)}" if job.peck_depth > 0.0 else ""
-    title, deep = f"BLOCK {job.block} MILL CONTOUR {comp}", f"{depth}{peck}"
-    together = len(title) + 1 + len(deep) <= COMMENT_WIDTH
-    for line in (f"{title} {deep}",) if together else (title, deep):
+    title, depth_text = f"BLOCK {job.block} MILL CONTOUR {comp}", f"{depth}{peck}"
+    together = len(title) + 1 + len(depth_text) <= COMMENT_WIDTH
+    for line in (f"{title} {depth_text}",) if together else (title, depth_text):
         yield from comments(line)
     for note in job.notes:
         yield from comments(note)
@@ -209,14 +209,14 @@ def _body(jobs: Sequence[Job], grid: Grid) -> Iterator[str]:
     yield "M30"
 
 
-def _coolant_change(now: Coolant, then: Coolant) -> Iterator[str]:
+def _coolant_change(current: Coolant, wanted: Coolant) -> Iterator[str]:
     """Yield the coolant words: M7 is mist, M8 flood; M9 switches both off."""
-    if now is then:
+    if current is wanted:
         return
-    if now is not Coolant.OFF:
+    if current is not Coolant.OFF:
         yield "M9"
-    if then is not Coolant.OFF:
-        yield "M7" if then is Coolant.MIST else "M8"
+    if wanted is not Coolant.OFF:
+        yield "M7" if wanted is Coolant.MIST else "M8"
 
 
 def _title(a_pass: Pass, unit: Unit) -> str:
@@ -224,5 +224,5 @@ def _title(a_pass: Pass, unit: Unit) -> str:
     kind = " FINISH" if a_pass.finishing else ""
     side = f" SIDE PASS {a_pass.side} OF {a_pass.sides}" if a_pass.sides > 1 else ""
     peck = f" PECK {a_pass.number} OF {a_pass.count}" if a_pass.count > 1 else ""
-    which = f"{side}{peck}" or " PASS 1 OF 1"
-    return f"BLOCK {a_pass.block}{kind}{which} Z {length_text(a_pass.level, unit)}{stock}"
+    numbers = f"{side}{peck}" or " PASS 1 OF 1"
+    return f"BLOCK {a_pass.block}{kind}{numbers} Z {length_text(a_pass.level, unit)}{stock}"

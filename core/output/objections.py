@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import replace
 from math import isfinite
-from typing import Final
+from typing import Final, NamedTuple
 
 import numpy as np
 
@@ -44,10 +44,12 @@ def job_errors(job: Job, grid: Grid) -> Iterator[Finding]:
     errors = job.errors
     fields = {finding.field for finding in errors}
     explained = any(finding.code not in OVERRIDABLE_CODES for finding in errors)
-    for wrong, code, text, field in (*_tools(job), *_depths(job), *_numbers(job), *_paths(job, grid)):
-        objection = Finding(code, Severity.ERROR, text, field=field)
-        known = objection in errors or (field is not None and field in fields) or (code == "NO_PATH" and explained)
-        if wrong and not known:
+    for check in (*_tools(job), *_depths(job), *_numbers(job), *_paths(job, grid)):
+        if not check.failed:
+            continue
+        objection = Finding(check.code, Severity.ERROR, check.text, field=check.field)
+        field_named = check.field is not None and check.field in fields
+        if not (objection in errors or field_named or (check.code == "NO_PATH" and explained)):
             yield objection
 
 
@@ -56,39 +58,47 @@ def overridable_errors(jobs: Iterable[Job]) -> tuple[Finding, ...]:
     return tuple(finding for job in jobs for finding in job.errors if finding.code in OVERRIDABLE_CODES)
 
 
-_Check = tuple[bool, str, str, str | None]
+class _Check(NamedTuple):
+    """One condition of posting: whether it `failed`, and the code, sentence and field of the error if it did."""
+
+    failed: bool
+    code: str
+    text: str
+    field: str | None
 
 
 def _tools(job: Job) -> Iterator[_Check]:
     missing = "is not in the tool table. Enter it in TOOL SETUP."
-    yield job.cutter is None, "TOOL_MISSING", f"TOOL {missing}", "tool"
-    yield bool(job.finish_tool) and job.finisher is None, "TOOL_MISSING", f"FINISH TOOL {missing}", "finish_tool"
+    yield _Check(job.cutter is None, "TOOL_MISSING", f"TOOL {missing}", "tool")
+    yield _Check(
+        bool(job.finish_tool) and job.finisher is None, "TOOL_MISSING", f"FINISH TOOL {missing}", "finish_tool"
+    )
     for cutter in (job.cutter, job.finisher):
         if cutter is not None:
             bad = not (isfinite(cutter.diameter) and cutter.diameter > 0.0)
-            yield bad, "TOOL_DIAMETER", f"The diameter of tool {cutter.number} must be above 0.", "tool"
-            yield not 1 <= cutter.number <= 99999, "TOOL_NUMBER", "Tool numbers go from 1 to 99999.", "tool"
+            yield _Check(bad, "TOOL_DIAMETER", f"The diameter of tool {cutter.number} must be above 0.", "tool")
+            yield _Check(not 1 <= cutter.number <= 99999, "TOOL_NUMBER", "Tool numbers go from 1 to 99999.", "tool")
 
 
 def _depths(job: Job) -> Iterator[_Check]:
     stock = job.finish_z if job.finish_tool else 0.0
-    deep = job.z_start - job.z_bottom
-    levels = [height for low, high, _ in job.levels for height in (low, high)]
+    depth = job.z_start - job.z_bottom
+    levels = [height for low, high, _ in job.distinct_floors for height in (low, high)]
     high, low = max(levels, default=job.z_start), min(levels, default=job.z_bottom)
-    yield deep < 0.0, "DEPTH", "Z BOTTOM is above Z START.", "z_bottom"
-    yield low < job.z_bottom - JOINED, "Z_END", "A Z END is below Z BOTTOM. No pass goes that deep.", "z_end"
-    above = deep >= 0.0 and high > job.z_start + JOINED
-    yield above, "Z_END", "A Z END is above Z START. Rapids would hit it.", "z_end"
-    yield stock >= deep > 0.0, "FINISH_Z", "FINISH Z leaves nothing for the roughing tool to cut.", "finish_z"
-    yield job.retract_clearance <= 0.0, "CLEARANCE", "RETRACT CLEARANCE must be above 0.", "retract_clearance"
-    yield job.peck_clearance < 0.0, "CLEARANCE", "PECK CLEARANCE must not be below 0.", "peck_clearance"
-    yield job.peck_depth < 0.0, "PECK_DEPTH", "PECK DEPTH must not be below 0.", "peck_depth"
-    too_many = job.peck_depth > 0.0 and deep > MAX_PECKS * job.peck_depth
-    yield too_many, "PECK_DEPTH", f"PECK DEPTH makes more than {MAX_PECKS} passes.", "peck_depth"
+    yield _Check(depth < 0.0, "DEPTH", "Z BOTTOM is above Z START.", "z_bottom")
+    yield _Check(low < job.z_bottom - JOINED, "Z_END", "A Z END is below Z BOTTOM. No pass goes that deep.", "z_end")
+    above = depth >= 0.0 and high > job.z_start + JOINED
+    yield _Check(above, "Z_END", "A Z END is above Z START. Rapids would hit it.", "z_end")
+    yield _Check(stock >= depth > 0.0, "FINISH_Z", "FINISH Z leaves nothing for the roughing tool to cut.", "finish_z")
+    yield _Check(job.retract_clearance <= 0.0, "CLEARANCE", "RETRACT CLEARANCE must be above 0.", "retract_clearance")
+    yield _Check(job.peck_clearance < 0.0, "CLEARANCE", "PECK CLEARANCE must not be below 0.", "peck_clearance")
+    yield _Check(job.peck_depth < 0.0, "PECK_DEPTH", "PECK DEPTH must not be below 0.", "peck_depth")
+    too_many = job.peck_depth > 0.0 and depth > MAX_PECKS * job.peck_depth
+    yield _Check(too_many, "PECK_DEPTH", f"PECK DEPTH makes more than {MAX_PECKS} passes.", "peck_depth")
 
 
 def _numbers(job: Job) -> Iterator[_Check]:
-    given = (
+    numbers = (
         job.z_start,
         job.z_bottom,
         job.peck_depth,
@@ -98,30 +108,30 @@ def _numbers(job: Job) -> Iterator[_Check]:
         job.plunge_feed,
         job.speed,
         job.safe_z,
-        *(value or 0.0 for level in job.levels for value in level),
+        *(value or 0.0 for floor in job.distinct_floors for value in floor),
     )
-    sane = all(isfinite(value) and abs(value) <= LARGEST_COORDINATE for value in given)
-    yield not sane, "NUMBER", "A depth, feed or speed is not a usable number.", None
-    yield not 54 <= job.work_offset <= 59, "WORK_OFFSET", "WORK OFFSET goes from 54 to 59.", "work_offset"
-    yield job.speed <= 0.0, "SPEED", "SPEED must be above 0.", "speed"
+    usable = all(isfinite(value) and abs(value) <= LARGEST_COORDINATE for value in numbers)
+    yield _Check(not usable, "NUMBER", "A depth, feed or speed is not a usable number.", None)
+    yield _Check(not 54 <= job.work_offset <= 59, "WORK_OFFSET", "WORK OFFSET goes from 54 to 59.", "work_offset")
+    yield _Check(job.speed <= 0.0, "SPEED", "SPEED must be above 0.", "speed")
 
 
 def _paths(job: Job, grid: Grid) -> Iterator[_Check]:
     nothing = not any(len(run.path) for run in job.finish)
-    yield nothing, "NO_PATH", "No path to post: the cutter does not fit, or the contour is incomplete.", None
+    yield _Check(nothing, "NO_PATH", "No path to post: the cutter does not fit, or the contour is incomplete.", None)
     unroughed = job.finisher is not None and not any(len(run.path) for run in rough_runs(job))
     text = "The roughing tool has no path, so the finish tool would cut solid."
-    yield unroughed, "NO_ROUGH_PATH", text, "finish_tool"
+    yield _Check(unroughed, "NO_ROUGH_PATH", text, "finish_tool")
     parts = (part for run in (*job.finish, *job.rough) for part in (run.lead_in, run.path, run.lead_out))
-    wild = not all(part.reachable for part in parts)
-    yield wild, "COORDINATE", "A point of the path is beyond any machine's travel.", None
+    unreachable = not all(part.reachable for part in parts)
+    yield _Check(unreachable, "COORDINATE", "A point of the path is beyond any machine's travel.", None)
     no_plunge_feed = _no_feed(job.plunge_feed, grid)
-    yield no_plunge_feed, "PLUNGE_FEED", "PLUNGE FEED must be above 0.", "plunge_feed"
-    unfed = sorted(_unfed(job, grid))
-    listed = ", ".join(map(str, unfed[:MAX_LISTED])) + (" ..." if len(unfed) > MAX_LISTED else "")
-    text = f"There is no FEED above 0 on {'segment' if len(unfed) == 1 else 'segments'} {listed}."
+    yield _Check(no_plunge_feed, "PLUNGE_FEED", "PLUNGE FEED must be above 0.", "plunge_feed")
+    without_feed = sorted(_unfed(job, grid))
+    listed = ", ".join(map(str, without_feed[:MAX_LISTED])) + (" ..." if len(without_feed) > MAX_LISTED else "")
+    text = f"There is no FEED above 0 on {'segment' if len(without_feed) == 1 else 'segments'} {listed}."
     # a blank FEED is PLUNGE FEED, so the missing one is named first
-    yield bool(unfed) and not no_plunge_feed, "FEED", text, "feed"
+    yield _Check(bool(without_feed) and not no_plunge_feed, "FEED", text, "feed")
 
 
 def _no_feed(feed: float, grid: Grid) -> bool:

@@ -106,7 +106,7 @@ class Job:
     """Further sentences for the posted header."""
 
     @property
-    def levels(self) -> frozenset[tuple[float, float, float | None]]:
+    def distinct_floors(self) -> frozenset[tuple[float, float, float | None]]:
         """The floors' start height, end height and feed, each triple once."""
         return frozenset((floor.z_start, floor.z_end, floor.feed) for floor in self.floors)
 
@@ -140,7 +140,7 @@ class Pass:
 
 def level_floor(job: Job) -> bool:
     """True if no segment rises above Z BOTTOM."""
-    return all(max(low, high) <= job.z_bottom + JOINED for low, high, _ in job.levels)
+    return all(max(low, high) <= job.z_bottom + JOINED for low, high, _ in job.distinct_floors)
 
 
 def heights(job: Job, run: CenterPath) -> Floats:
@@ -193,18 +193,18 @@ def _floor_heights(job: Job, path: Path) -> Floats:
 
 def _shares(pieces: Pieces, segments: Pieces) -> Floats:
     """Return (2, n) how far along its segment each piece begins and ends, 0 to 1."""
-    run = segments.end - segments.start
-    square = np.maximum(np.abs(run) ** 2, np.finfo(float).tiny)
+    chord = segments.end - segments.start
+    square = np.maximum(np.abs(chord) ** 2, np.finfo(float).tiny)
     points = np.array((pieces.start, pieces.end))
-    on_line = np.clip(((points - segments.start) * run.conj()).real / square, 0.0, 1.0)
+    on_line = np.clip(((points - segments.start) * chord.conj()).real / square, 0.0, 1.0)
     turned = (pieces.start - segments.center) * (segments.start - segments.center).conj()
-    begun, whole = np.mod(np.angle(turned) * segments.turn, tau), swept(segments)
-    begun[begun > tau - MAX_WRAP_ANGLE] = 0.0
-    on_arc = np.array((begun, begun + swept(pieces))) / np.where(whole == 0.0, 1.0, whole)
+    start_angle, full_angle = np.mod(np.angle(turned) * segments.turn, tau), swept(segments)
+    start_angle[start_angle > tau - MAX_WRAP_ANGLE] = 0.0
+    on_arc = np.array((start_angle, start_angle + swept(pieces))) / np.where(full_angle == 0.0, 1.0, full_angle)
     return np.where(segments.turn == 0, on_line, np.minimum(on_arc, 1.0))
 
 
-def levels(z_start: float, bottom: float, peck: float) -> tuple[float, ...]:
+def peck_levels(z_start: float, bottom: float, peck: float) -> tuple[float, ...]:
     """Return the depths from the first peck to `bottom`, which is always the last; `peck` 0 goes there at once (mm).
 
     Each is counted from Z START, so that rounding does not add up; a rest too thin for a machine to show is part of the
@@ -228,7 +228,7 @@ class _Stage:
 
 def passes(job: Job) -> tuple[Pass, ...]:
     """Return all passes of a block, in order.  The job must have no posting errors."""
-    return tuple(a_pass for stage in _stages(job) for a_pass in _cut(job, stage))
+    return tuple(a_pass for stage in _stages(job) for a_pass in _stage_passes(job, stage))
 
 
 def rough_runs(job: Job) -> tuple[CenterPath, ...]:
@@ -255,13 +255,13 @@ def at_one_safe_z(jobs: Sequence[Job]) -> list[Job]:
 def _stages(job: Job) -> Iterator[_Stage]:
     assert job.cutter is not None
     stock = job.finish_z if job.finisher is not None else 0.0
-    rough_levels = levels(job.z_start, job.z_bottom + stock, job.peck_depth)
+    rough_levels = peck_levels(job.z_start, job.z_bottom + stock, job.peck_depth)
     yield _Stage(job.cutter, rough_runs(job), rough_levels, stock, finishing=False)
     if job.finisher is not None:
         strip = job.cutter.diameter + (job.rough[0].offset if job.rough else 0.0)
         roughed = job.cutter.diameter <= job.finisher.diameter <= strip and not meets_solid(job)
-        fine = levels(job.z_start, job.z_bottom, 0.0 if roughed else job.peck_depth)
-        yield _Stage(job.finisher, job.finish, fine, 0.0, finishing=True)
+        finish_levels = peck_levels(job.z_start, job.z_bottom, 0.0 if roughed else job.peck_depth)
+        yield _Stage(job.finisher, job.finish, finish_levels, 0.0, finishing=True)
 
 
 def meets_solid(job: Job) -> frozenset[int]:
@@ -273,7 +273,7 @@ def _segments(runs: Sequence[CenterPath]) -> frozenset[int]:
     return frozenset(int(number) for run in runs for number in run.path.numbers.tolist() if number == int(number))
 
 
-def _cut(job: Job, stage: _Stage) -> Iterator[Pass]:
+def _stage_passes(job: Job, stage: _Stage) -> Iterator[Pass]:
     runs = tuple(run for run in stage.runs if len(run.with_leads))
     floors = [heights(job, run) + stage.floor_stock for run in runs]
     widths = list(dict.fromkeys(run.offset for run in runs))
@@ -284,8 +284,10 @@ def _cut(job: Job, stage: _Stage) -> Iterator[Pass]:
             done = number * len(runs) + index
             before = max(stage.levels[number - 1], float(floor[0, 0])) if number else None
             motions = (
-                *_down(job, run, max(level, float(floor[0, 0])), before, safe if done == 0 else clear_height(job)),
-                *_milled(job, run, floor, level),
+                *_plunge_moves(
+                    job, run, max(level, float(floor[0, 0])), before, safe if done == 0 else clear_height(job)
+                ),
+                *_contour_moves(job, run, floor, level),
             )
             up = CenterMove(motions[-1].x, motions[-1].y, safe if done == last else clear_height(job))
             yield Pass(
@@ -303,7 +305,7 @@ def _cut(job: Job, stage: _Stage) -> Iterator[Pass]:
             )
 
 
-def _down(job: Job, run: CenterPath, depth: float, before: float | None, height: float) -> Iterator[CenterMove]:
+def _plunge_moves(job: Job, run: CenterPath, depth: float, before: float | None, height: float) -> Iterator[CenterMove]:
     """Yield rapids to the plunge point and the clearance, then a feed to `depth`; `before` is the last depth there."""
     assert run.plunge_point is not None
     x, y = run.plunge_point
@@ -314,12 +316,12 @@ def _down(job: Job, run: CenterPath, depth: float, before: float | None, height:
     yield CenterMove(x, y, depth, job.plunge_feed)
 
 
-def _milled(job: Job, run: CenterPath, floors: Floats, level: float) -> Iterator[CenterMove]:
+def _contour_moves(job: Job, run: CenterPath, floors: Floats, level: float) -> Iterator[CenterMove]:
     """Yield the run at `level`, lifted where the floor is higher."""
-    whole = run.with_leads
+    path = run.with_leads
     feeds = _feeds(job, run)
     z = max(level, float(floors[0, 0]))
-    for piece, feed, (low, high) in zip(whole, feeds, floors.tolist(), strict=True):
+    for piece, feed, (low, high) in zip(path, feeds, floors.tolist(), strict=True):
         if abs(max(low, level) - z) > JOINED:
             yield CenterMove(*piece.start, max(low, level), job.plunge_feed if max(low, level) < z else feed)
         yield from _piece_at_level(piece, feed, (low, high), level)
@@ -403,5 +405,5 @@ def minutes_text(minutes: float) -> str:
     if not isfinite(minutes):
         return "-"
     seconds = round(60.0 * minutes)
-    hours, rest = divmod(seconds, 3600)
-    return f"{hours}:{rest // 60:02}:{rest % 60:02}" if hours else f"{rest // 60}:{rest % 60:02}"
+    hours, in_hour = divmod(seconds, 3600)
+    return f"{hours}:{in_hour // 60:02}:{in_hour % 60:02}" if hours else f"{in_hour // 60}:{in_hour % 60:02}"

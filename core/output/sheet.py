@@ -143,7 +143,7 @@ def _block(job: Job, unit: Unit) -> Section:
     all_passes = passes(job) if known else ()
     return Section(
         f"BLOCK {job.block}  MILL CONTOUR",
-        (*_set_up(job, unit), *_cut(job, all_passes, unit)),
+        (*_set_up(job, unit), *_cutting_data(job, all_passes, unit)),
         _pass_table(all_passes, unit),
         tuple(f"{_MARK[finding.severity]} {located_sentence(finding, unit)}" for finding in job.findings),
     )
@@ -157,11 +157,11 @@ def _set_up(job: Job, unit: Unit) -> Iterator[Pair]:
     yield "TOOL", _cutter(job.cutter)
     yield "FINISH TOOL", _cutter(job.finisher) if job.finish_tool else "none"
     if len(job.surface):
-        yield "CONTOUR START", _place(job.surface.points[0].tolist(), unit)
+        yield "CONTOUR START", _point_text(job.surface.points[0].tolist(), unit)
     plunges = [run.plunge_point for run in (*rough_runs(job), *job.finish) if run.plunge_point is not None]
     if plunges:
-        yield "FIRST PLUNGE AT", _place(plunges[0], unit)
-    if reach := _reach(job, unit):
+        yield "FIRST PLUNGE AT", _point_text(plunges[0], unit)
+    if reach := _reach_text(job, unit):
         yield "CUTTER REACHES", reach
         if job.comp != "ON":
             yield "", "on the center path; a G41/G42 program plunges farther off"
@@ -169,7 +169,7 @@ def _set_up(job: Job, unit: Unit) -> Iterator[Pair]:
     yield "PECK DEPTH", length_text(job.peck_depth, unit) if job.peck_depth else "none: full depth in one pass"
 
 
-def _cut(job: Job, all_passes: Sequence[Pass], unit: Unit) -> Iterator[Pair]:
+def _cutting_data(job: Job, all_passes: Sequence[Pass], unit: Unit) -> Iterator[Pair]:
     yield "SPEED", f"{job.speed:g} RPM"
     yield "COOLANT", str(job.coolant)
     yield "PLUNGE FEED", _feed(job.plunge_feed, unit)
@@ -182,11 +182,11 @@ def _cutter(cutter: Cutter | None) -> str:
     return "NOT KNOWN" if cutter is None else f"{cutter.number} {cutter.type}".strip()
 
 
-def _place(point: Sequence[float], unit: Unit) -> str:
+def _point_text(point: Sequence[float], unit: Unit) -> str:
     return f"X {length_text(point[0], unit)}  Y {length_text(point[1], unit)}"
 
 
-def _reach(job: Job, unit: Unit) -> str:
+def _reach_text(job: Job, unit: Unit) -> str:
     """Return the rectangle that the cutters stay in, for placing the clamps."""
     stages = ((job.cutter, rough_runs(job)), (job.finisher, job.finish))
     swept = [
@@ -224,8 +224,8 @@ def _pass_table(all_passes: Sequence[Pass], unit: Unit) -> tuple[tuple[str, ...]
 def as_text(sheet: Sheet) -> str:
     """Return the sheet as plain text, each line ended by a line feed."""
     lines = ["SETUP SHEET", "=" * PAGE_COLUMNS, *_text_pairs(sheet.head), ""]
-    first, rest = sheet.verdict
-    marked = (f"{'!!' if text in sheet.errors else '!'} {text}" for text in rest)
+    first, reasons = sheet.verdict
+    marked = (f"{'!!' if text in sheet.errors else '!'} {text}" for text in reasons)
     lines += [first, *(line for text in marked for line in _wrapped(text))]
     for section in (sheet.tools, *sheet.blocks):
         lines += ["", section.title, "-" * PAGE_COLUMNS, *_text_section(section)]
@@ -284,12 +284,12 @@ def _escaped(text: str) -> str:
 
 
 def _page_verdict(sheet: Sheet) -> Iterator[str]:
-    first, rest = sheet.verdict
-    if not rest:
+    first, reasons = sheet.verdict
+    if not reasons:
         yield f'<p class="good">{_escaped(first)}</p>'
         return
     yield f'<div class="{"bad" if sheet.errors else "good"}">{_escaped(first)}<ul>'
-    yield from (f"<li>{_escaped(text)}</li>" for text in rest)
+    yield from (f"<li>{_escaped(text)}</li>" for text in reasons)
     yield "</ul></div>"
 
 

@@ -260,7 +260,7 @@ def _contact(result: JudgedContour) -> list[Finding]:
     numbers, lines = result.center.numbers, result.lines
     against = tuple(row for row in result.verdict.backwards if numbers[row] in lines)
     away: tuple[AirCut, ...] = ()
-    if any(numbers[row] in lines for row in result.verdict.loose):
+    if any(numbers[row] in lines for row in result.verdict.may_cut_air):
         cuts = air_cuts(result.surface, result.stretch.radius, result.center)
         away = tuple(cut for cut in cuts if _between_leads(cut, result.center, lines))
     first_lines = [*(int(numbers[row]) for row in against[:1]), *(int(cut.first_number) for cut in away)]

@@ -221,7 +221,7 @@ def test_roughing_that_skips_segments_or_has_no_room_is_reported() -> None:
     assert paths.verdict is not None
     none = RoughPass(0.2, (), paths.compensated, paths.verdict)
     assert messages(replace(paths, rough=(none,)), "ROUGH_EMPTY") == [
-        (Severity.WARNING, None, "No room for the 0.200 roughing pass: skipped.")
+        (Severity.WARNING, None, "Roughing that leaves 0.200 has no room: it is skipped.")
     ]
     points = (0.35, 0), (2, 0), (2, 1.5), (0, 1.5), (0, 0), (0.35, 0)
     near_corner = work(lines(*points), radius=0.25, lookahead=4, closed=True, stocks=(0.1,))
@@ -242,7 +242,7 @@ def test_the_additional_length_of_the_best_path_is_reported_with_its_place() -> 
     assert (difference.code, difference.severity) == ("BEST_DIFFERS", Severity.INFO)
     assert difference.value > 8.0
     assert difference.at == (0.25, -0.25)
-    assert sentence(difference, Unit.MM).startswith("BEST runs ")
+    assert sentence(difference, Unit.MM).startswith("The best path cuts ")
     assert better_path_findings(best, replace(apart, length=0.0013)) != ()
     # this would show as 0.0000 in inches
     assert better_path_findings(best, replace(apart, length=0.0012)) == ()

@@ -9,7 +9,7 @@ from core.comp.compensated import CenterPath
 from core.controls.write.contour_pass import CenterMove
 from core.geometry.path import Path
 from core.geometry.piece import Line, Turn
-from core.output.passes import Cutter, Floor, Job, Pass, heights, levels, meets_solid, passes, z_steps
+from core.output.passes import Cutter, Floor, Job, Pass, heights, meets_solid, passes, peck_levels, z_steps
 from tests.core.output.jobs import INCH, arc, job, path_of, polyline
 
 SLOT = polyline((0, 0), (2, 0), (2, 1))
@@ -43,16 +43,16 @@ def in_inches(values: tuple[float, ...]) -> list[float]:
     ],
 )
 def test_levels_count_from_z_start_and_end_at_the_bottom(bottom, peck, expected):
-    assert in_inches(levels(0.0, bottom * INCH, peck * INCH)) == expected
+    assert in_inches(peck_levels(0.0, bottom * INCH, peck * INCH)) == expected
 
 
 def test_the_bottom_is_reached_exactly():
-    assert levels(1.0, -2.3, 0.7)[-1] == -2.3
+    assert peck_levels(1.0, -2.3, 0.7)[-1] == -2.3
 
 
 def test_a_remainder_below_the_last_digit_is_no_separate_pass():
-    assert levels(0.0, -2.0005, 1.0) == (-1.0, -2.0005)
-    assert levels(0.0, -2.002, 1.0) == (-1.0, -2.0, -2.002)
+    assert peck_levels(0.0, -2.0005, 1.0) == (-1.0, -2.0005)
+    assert peck_levels(0.0, -2.002, 1.0) == (-1.0, -2.0, -2.002)
 
 
 @given(
@@ -62,7 +62,7 @@ def test_a_remainder_below_the_last_digit_is_no_separate_pass():
 )
 @settings(derandomize=True, max_examples=200)
 def test_no_peck_is_deeper_than_peck_depth(start, depth, peck):
-    depths = (start, *levels(start, start - depth, peck))
+    depths = (start, *peck_levels(start, start - depth, peck))
     steps = [high - low for high, low in pairwise(depths)]
     assert depths[-1] == start - depth
     assert max(steps) <= peck + 1e-3 + 1e-9
