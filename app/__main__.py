@@ -80,7 +80,7 @@ def _parsed(given: list[str]) -> int:
         help="draw with these; by itself braille, half blocks on the Linux console, ASCII where LANG names no UTF-8",
     )
     parser.add_argument("--mouse", action="store_true", help="clicks act on fields, softkeys, lists and drawings")
-    parser.add_argument("--light", action="store_true", help="dark ink on light paper")
+    parser.add_argument("--light", action="store_true", help="dark text on a light background")
     parser.add_argument("--version", action="store_true", help="print the version and end")
     options = parser.parse_args(given)
     if options.version:

@@ -217,7 +217,7 @@ class CutcompApp(TransformActions):
 
     def action_leave_guide(self) -> None:
         """End the guide; what was typed stays."""
-        self.end_guide("The guide is off, what you typed stays. GUIDED FIRST PART in Ctrl+K begins it anew.")
+        self.end_guide("The guide is off, what you typed stays. GUIDED FIRST PART in Ctrl+K starts it again.")
 
     # ---- screens
 
@@ -336,7 +336,7 @@ class CutcompApp(TransformActions):
             self._show_post()
         elif word != GO_BACK:
             self.action_parameters()
-            self.say("UNITS converts what is typed. Numbers typed in the wrong unit are typed again.", Tone.WARNING)
+            self.say("UNITS converts what is typed. Numbers that it makes wrong must be typed again.", Tone.WARNING)
 
     def _show_post(self) -> None:
         from app.screens.post import PostScreen

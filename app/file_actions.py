@@ -104,9 +104,9 @@ class FileActions(DerivationActions):
     def action_redo(self) -> None:
         """Redo one edit; discard half-typed text."""
         label = self.session.history.redo_label
-        self._undo_or_redo("redo", label, self.session.redone, f"Done again: {label}.")
+        self._undo_or_redo("redo", label, self.session.redone, f"Redone: {label}.")
 
-    def _undo_or_redo(self, action: str, label: str | None, turned: Callable[[], Session], done: str) -> None:
+    def _undo_or_redo(self, action: str, label: str | None, changed_session: Callable[[], Session], message: str) -> None:
         """Undo or redo; a screen with its own document does so on that document instead."""
         if isinstance(self.screen, BaseScreen):
             if self.screen.take_over(action):
@@ -115,10 +115,10 @@ class FileActions(DerivationActions):
         if label is None:
             self.say(f"There is nothing to {action}.")
             return
-        self._change(turned())
-        # none that offers Ctrl+Z stays after it has been pressed: pressed again, it undoes another edit
+        self._change(changed_session())
+        # a message that offers Ctrl+Z must not stay once it is pressed: pressed again, it would undo another edit
         self.clear_notifications()
-        self.say(done)
+        self.say(message)
 
     def _change(self, session: Session) -> None:
         """Write the journal, then set the session, then start the calculation."""

@@ -78,8 +78,7 @@ def _programs(files: list[Path]) -> Iterator[Path]:
             others = {file.suffix.lower() or file.name for file in all_files if not _is_program(file)}
             names = " ".join(map(printable_path, sorted(others)[:MAX_NAMES]))
             count = checking.counted(len(all_files) - len(programs), "file")
-            text = f"{printable_path(path)}: {count} left out that are no programs by their names: {names}"
-            say(text)
+            say(f"{printable_path(path)}: {count} left out, whose names are not those of programs: {names}")
         yield from programs or [path]
 
 

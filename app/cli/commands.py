@@ -54,8 +54,8 @@ def command(arguments: list[str]) -> int:
 def _parser(name: str) -> argparse.ArgumentParser:
     parser = argparse.ArgumentParser(f"cutcomp {name}", description=COMMAND_HELP[name])
     optional, stdin = "?" if name == "serve" else None, name in ("path", "lookahead", "post", "plot")
-    what = f"a program file (TOML){', - for standard input' if stdin else ''}"
-    parser.add_argument("file", nargs=optional, type=Path, metavar="FILE", help=what)
+    about_file = f"a program file (TOML){', - for standard input' if stdin else ''}"
+    parser.add_argument("file", nargs=optional, type=Path, metavar="FILE", help=about_file)
     if name in ("path", "lookahead"):
         parser.add_argument("--block", type=int, metavar="N", help="this block only")
         parser.add_argument("--json", action="store_true", help="machine-readable")
@@ -64,10 +64,10 @@ def _parser(name: str) -> argparse.ArgumentParser:
             parser.add_argument("--lookahead", metavar="N|cal", help="use this look-ahead instead of the program's")
         case "post":
             _add_output(parser, "write here instead of standard output")
-            words = "post although there is a gouge; the refusal names the words"
-            parser.add_argument("--override", metavar="SENTENCE", help=words)
-            which = "as that control's own G41, G42, RL or RR program"
-            parser.add_argument("--control", metavar="NAME[:VARIANT]", help=which)
+            about_override = "post although there is a gouge; the refusal names the phrase"
+            parser.add_argument("--override", metavar="SENTENCE", help=about_override)
+            about_control = "as that control's own G41, G42, RL or RR program"
+            parser.add_argument("--control", metavar="NAME[:VARIANT]", help=about_control)
         case "plot":
             _add_output(parser, "an .svg or .dxf file to write instead of standard output")
         case "sheet":
@@ -88,7 +88,7 @@ def _add_output(parser: argparse.ArgumentParser, about: str) -> None:
 
 def _port(text: str) -> int:
     if not (text.isascii() and text.isdigit() and len(text) < 6 and 1 <= int(text) <= 65535):
-        raise argparse.ArgumentTypeError(f"{text} is no port; ports go from 1 to 65535.")
+        raise argparse.ArgumentTypeError(f"{text} is not a port; ports go from 1 to 65535.")
     return int(text)
 
 
@@ -196,7 +196,7 @@ def post(options: argparse.Namespace) -> int:
         say(f"nothing was posted. {' '.join((*reasons, *remedies))}{_override_hint(result, options)}")
         return STATUS_FINDINGS
     if options.override is not None and not result.overridden:
-        say("--override was not needed: nothing stood against posting.")
+        say("--override was not needed: nothing prevented posting.")
     for note in result.notes:
         say(f"{note.severity}: {sentence(note, derived.program.unit)}")
     deliver(result.text, options.output)
@@ -209,7 +209,7 @@ def _override_hint(result: Refusal, options: argparse.Namespace) -> str:
 
     if options.control is not None or not all(finding.code in OVERRIDABLE_CODES for finding in result.findings):
         return ""
-    wrong = "" if options.override is None else f" {options.override!r} are not the words."
+    wrong = "" if options.override is None else f" {options.override!r} is not the phrase."
     return f"{wrong} To post in spite of it: --override '{OVERRIDE_PHRASE}'"
 
 

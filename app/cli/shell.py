@@ -20,7 +20,7 @@ STATUS_UNUSABLE: Final = 2
 
 COMMAND_HELP: Final = {
     "path": "the center path of every block",
-    "lookahead": "what becomes of the path at every look-ahead value",
+    "lookahead": "what every look-ahead value does to the path",
     "post": "write the NC file",
     "plot": "draw the program as SVG or DXF",
     "sheet": "the setup sheet, as text or as a page with the drawing",

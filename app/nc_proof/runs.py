@@ -68,7 +68,7 @@ class Result:
 
 
 @dataclass(frozen=True, eq=False, slots=True)
-class RanDotted:
+class DottedRun:
     """A run and verdict of a text on another control; `path` is drawn dotted under the first."""
 
     result: Result
@@ -102,13 +102,13 @@ def with_largest_tool(result: Result, progress: Progress = silent) -> Result:
     return replace(result, answer=answer)
 
 
-def run_dotted(main: Result, control: str, progress: Progress = silent) -> RanDotted:
+def run_dotted(main: Result, control: str, progress: Progress = silent) -> DottedRun:
     """Run and judge the same text on another control; its path lies on the main result's plane."""
     from core.pipeline.nc_proof import dotted_path
 
     other = replace(main.request, control=control)
     result = judge(run(other, part(progress, 0.0, RUN_SHARE)), part(progress, RUN_SHARE, 1.0))
-    return RanDotted(result, dotted_path(result.proof, main.proof.plane))
+    return DottedRun(result, dotted_path(result.proof, main.proof.plane))
 
 
 def _result(

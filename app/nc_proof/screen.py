@@ -22,7 +22,7 @@ from app.documents.nc_text import NcText
 from app.nc_proof import runs
 from app.nc_proof.compare_controls import CompareControls
 from app.nc_proof.listing import Listing
-from app.nc_proof.runs import RanDotted, Result, RunRequest
+from app.nc_proof.runs import DottedRun, Result, RunRequest
 from app.screens.base import BaseScreen
 from app.screens.dialogs import ChooseLine, Phrase
 from app.session.formats import counted
@@ -57,8 +57,8 @@ _NAMED: Final = re.compile(r"\s*([^=]*[^=\s])\s*=(.*)")
 class ProofScreen(BaseScreen):
     """The proof of one NC text.
 
-    The text runs on the control in `check_request`, else on the `usual` one if that reads the text.  Its tools are
-    those of the last time, `remembered` as `1=0.5in`; tools in `check_request` override them.
+    The text runs on the control in `check_request`, else on the `usual_control` if that reads the text.  Its tools are
+    those of the last time, `remembered_tools` such as `1=0.5in`; tools in `check_request` override them.
     """
 
     AUTO_FOCUS: ClassVar[str | None] = "#listing"
@@ -97,18 +97,18 @@ class ProofScreen(BaseScreen):
     )
 
     def __init__(
-        self, document: NcDocument, check_request: CheckRequest | None = None, usual: str = "", remembered: str = ""
+        self, document: NcDocument, check_request: CheckRequest | None = None, usual_control: str = "", remembered_tools: str = ""
     ) -> None:
         super().__init__()
         self.document = document
         text = document.text
-        control = runs.likely_control(text, usual)
+        control = runs.likely_control(text, usual_control)
         folder = None if document.file.path is None else document.file.path.absolute().parent
-        self.given = runs.read_tools(remembered)
+        self.typed_tools = runs.read_tools(remembered_tools)
         """The tools typed for this program, now or in an earlier session."""
-        self.header = runs.header_tools(text)
+        self.tools_in_header = runs.header_tools(text)
         """The tools that the header of a program posted by cutcomp names."""
-        self.request = RunRequest(text, control, self.header.with_tools(self.given), folder=folder)
+        self.request = RunRequest(text, control, self.tools_in_header.with_tools(self.typed_tools), folder=folder)
         self.tool = runs.first_tool(text)
         if check_request is not None:
             tools = self.request.tools.with_tools(check_request.tools)
@@ -117,9 +117,9 @@ class ProofScreen(BaseScreen):
         self.result: Result | None = None
         self.dotted_control = ""
         """The other control whose path is drawn dotted; empty for none."""
-        self.dotted: RanDotted | None = None
+        self.dotted: DottedRun | None = None
         """That control's run of the same text; None until it is known."""
-        self.view_of: View | None = None
+        self.window_view: View | None = None
         self.stopped = self.half_typed = False
 
     def compose_body(self) -> ComposeResult:
@@ -147,10 +147,10 @@ class ProofScreen(BaseScreen):
         if opened is not None:
             self.say(opened.text, opened.tone)
         before = "" if opened is None else f"{opened.text.removesuffix('.')}. "
-        if any(tool is self.request.tools.get(number) for number, tool in self.given.tools.items()):
-            self.say(f"{before}Its tools are those that you gave it the last time.")
-        elif self.header.tools and self.request.tools.tools == self.header.tools:
-            self.say(f"{before}Its tools are those that its header names.")
+        if any(tool is self.request.tools.get(number) for number, tool in self.typed_tools.tools.items()):
+            self.say(f"{before}It has the tools that you gave it last time.")
+        elif self.tools_in_header.tools and self.request.tools.tools == self.tools_in_header.tools:
+            self.say(f"{before}It has the tools that its header names.")
 
     # ---- the text
 
@@ -202,7 +202,7 @@ class ProofScreen(BaseScreen):
         if action == "undo":
             self._step(action, self.document.text.undo(), "Undone. Ctrl+Y brings it back.")
         else:
-            self._step(action, self.document.text.redo(), "Done again.")
+            self._step(action, self.document.text.redo(), "Redone.")
         return True
 
     def _step(self, action: str, text: NcText, done: str) -> None:
@@ -288,14 +288,14 @@ class ProofScreen(BaseScreen):
         with suppress(Stopped):
             with self.host.working(self._run_stopped) as work:
                 result = await to_thread(runs.run, request, part(work, 0.0, runs.RUN_SHARE))
-                self._ran(result)
+                self._show_result(result)
                 judged = await to_thread(runs.judge, result, part(work, runs.RUN_SHARE, 1.0))
-            self._ran(judged)
-            self._ask_dotted()
+            self._show_result(judged)
+            self._start_dotted_run()
             # the progress shown ends with the verdict
             fitted = await to_thread(runs.with_largest_tool, judged, while_wanted())
             if fitted.answer.fits is not None:
-                self._ran(fitted)
+                self._show_result(fitted)
 
     def _run_stopped(self) -> None:
         """Report that Esc stopped the run: the text stays without a run, or without verdicts, until the next one."""
@@ -303,10 +303,10 @@ class ProofScreen(BaseScreen):
         self._show_titles()
         self.say("Stopped. C chooses the control and runs the program again.", Tone.WARNING)
 
-    def _ran(self, result: Result) -> None:
-        if not self.stands or result.request is not self.request:
+    def _show_result(self, result: Result) -> None:
+        if not self.is_live or result.request is not self.request:
             return
-        held = self._finding_in_hand()
+        highlighted = self._highlighted_finding()
         self.result = result
         marks: dict[int, Severity] = {}
         for finding in result.findings:
@@ -314,13 +314,13 @@ class ProofScreen(BaseScreen):
                 known = marks.get(finding.line, Severity.INFO)
                 marks[finding.line] = min(known, finding.severity, key=SEVERITY_ORDER.index)
         self.query_one(Listing).marks = marks
-        self._show_findings(held)
+        self._show_findings(highlighted)
         self._show_titles()
         self._draw()
 
     # ---- the path of another control
 
-    def _ask_dotted(self) -> None:
+    def _start_dotted_run(self) -> None:
         """Run the program on the control that is drawn dotted, once the main run is judged."""
         self._end_dotted()
         if self.dotted_control and self.result is not None and self.result.judged:
@@ -331,7 +331,7 @@ class ProofScreen(BaseScreen):
         with suppress(Stopped), self.host.working(self._dotted_stopped) as work:
             dotted = await to_thread(runs.run_dotted, main, control, work)
             other = dotted.result
-            if self.stands and main.request is self.request and control == self.dotted_control:
+            if self.is_live and main.request is self.request and control == self.dotted_control:
                 self.dotted = dotted
                 self._draw()
                 self.say(f"Dotted: {display_name(control)} {other.answer.outcome}. B removes it.")
@@ -343,10 +343,10 @@ class ProofScreen(BaseScreen):
 
     def _dotted_stopped(self) -> None:
         """Report that Esc stopped the run on the other control."""
-        self._take_dotted_away()
+        self._remove_dotted()
         self.say("Stopped. V, then Space on a control, draws its path dotted.", Tone.WARNING)
 
-    def _take_dotted_away(self) -> None:
+    def _remove_dotted(self) -> None:
         self.dotted_control = ""
         self._end_dotted()
         self._show_titles()
@@ -355,7 +355,7 @@ class ProofScreen(BaseScreen):
     def action_no_dotted_path(self) -> None:
         """Remove the other control's dotted path."""
         if self.dotted_control:
-            self._take_dotted_away()
+            self._remove_dotted()
             self.clear_notice()
         else:
             self.say("V, then Space on another control, draws its path dotted under this one.")
@@ -410,27 +410,27 @@ class ProofScreen(BaseScreen):
 
     # ---- findings
 
-    def _finding_in_hand(self) -> Finding | None:
+    def _highlighted_finding(self) -> Finding | None:
         at = self.query_one("#proof-findings", OptionList).highlighted
         return None if at is None or at >= len(self.result_findings) else self.result_findings[at]
 
     def show_signs(self) -> None:
         """Redraw the signs of the findings."""
-        self._show_findings(self._finding_in_hand())
+        self._show_findings(self._highlighted_finding())
 
-    def _show_findings(self, held: Finding | None) -> None:
-        """List the findings; keep `held` highlighted if it is on the cursor's line or the list has the focus."""
+    def _show_findings(self, keep: Finding | None) -> None:
+        """List the findings; keep `keep` highlighted if it is on the cursor's line or the list has the focus."""
         findings, marks = self.query_one("#proof-findings", OptionList), MARKS_OF_CHARACTERS[self.host.characters]
         listed = self.result_findings
         findings.border_title = f"FINDINGS  {len(listed)}" if listed else "FINDINGS  none"
-        at = listed.index(held) if held in listed else None
+        at = listed.index(keep) if keep in listed else None
         findings.clear_options()
         findings.add_options([Option(self._line(finding, marks.gouge, marks.warning)) for finding in listed])
         here = self._findings_of_row()
         stays = at in here or (at is not None and findings.has_focus)
-        findings.highlighted = at if stays else self._gravest(here or range(len(listed)))
+        findings.highlighted = at if stays else self._most_severe(here or range(len(listed)))
 
-    def _gravest(self, among: Sequence[int]) -> int | None:
+    def _most_severe(self, among: Sequence[int]) -> int | None:
         """Return the index of the first of the most severe findings among these; None if there are none."""
         return min(among, key=lambda index: SEVERITY_ORDER.index(self.result_findings[index].severity), default=None)
 
@@ -444,7 +444,7 @@ class ProofScreen(BaseScreen):
         """Highlight the most severe finding of the line with the cursor."""
         findings, here = self.query_one("#proof-findings", OptionList), self._findings_of_row()
         if here and findings.highlighted not in here and not findings.has_focus:
-            findings.highlighted = self._gravest(here)
+            findings.highlighted = self._most_severe(here)
 
     def _findings_of_row(self) -> list[int]:
         """Return the indexes of the findings of the line with the cursor."""
@@ -484,8 +484,8 @@ class ProofScreen(BaseScreen):
         """If the drawing is enlarged, center it on the cutter at a line."""
         from core.pipeline.nc_proof import cutter_at_line
 
-        if self.view_of is not None and self.result is not None:
-            self.view_of = replace(self.view_of, center=cutter_at_line(self.result.proof, line)[0])
+        if self.window_view is not None and self.result is not None:
+            self.window_view = replace(self.window_view, center=cutter_at_line(self.result.proof, line)[0])
 
     @on(OptionList.OptionHighlighted, "#proof-findings")
     def _finding_highlighted(self, event: OptionList.OptionHighlighted) -> None:
@@ -523,18 +523,18 @@ class ProofScreen(BaseScreen):
             other = dotted.result
             second = self.query_one("#proof-dotted", Drawing)
             second.heading = f"{display_name(other.request.control)}: {other.answer.outcome}"
-            second.subject = SceneSubject(scene_at_line(other.scene, other.proof, line), self.unit, self.view_of)
+            second.subject = SceneSubject(scene_at_line(other.scene, other.proof, line), self.unit, self.window_view)
         self.set_class(dotted is not None, "-dotted")
         drawing = self.query_one("#proof-drawing", Drawing)
         drawing.heading = f"LINE {line}"
-        drawing.subject = SceneSubject(scene, self.unit, self.view_of)
+        drawing.subject = SceneSubject(scene, self.unit, self.window_view)
         for each in self.query(Drawing):
             each.zoomed_about, _ = cutter_at_line(self.result.proof, line)
 
     @on(Drawing.Viewed)
     def _viewed(self, event: Drawing.Viewed) -> None:
         """Show the same window in both drawings."""
-        self.view_of = event.view
+        self.window_view = event.view
         for drawing in self.query(Drawing):
             drawing.show_view(event.view)
 
@@ -580,10 +580,10 @@ class ProofScreen(BaseScreen):
         if not dotted:
             self._run_request(replace(self.request, control=control))
         elif control == self.request.control:
-            self.say("The program runs on this control already. Choose another one to be drawn dotted.")
+            self.say("The program runs on this control already. Choose another one to draw dotted.")
         else:
             self.dotted_control = control
-            self._ask_dotted()
+            self._start_dotted_run()
             self._show_titles()
             self._draw()
 
@@ -610,18 +610,18 @@ class ProofScreen(BaseScreen):
         if isinstance(typed, CutterTool):
             self._with_tool(typed)
         elif not isinstance(typed, Unreadable):
-            self._with_tools(self.given.without(typed), self.request.tools.without(typed))
+            self._with_tools(self.typed_tools.without(typed), self.request.tools.without(typed))
             self.say(f"Tool {typed} has no diameter any more.")
 
     def _with_tool(self, tool: CutterTool) -> None:
         self.tool, typed = tool.number, ToolTable.of(tool)
-        self._with_tools(self.given.with_tools(typed), self.request.tools.with_tools(typed))
+        self._with_tools(self.typed_tools.with_tools(typed), self.request.tools.with_tools(typed))
         self.say(f"Tool {tool.number}: diameter {tool.diameter:g} {tool.unit or self.unit}.")
 
-    def _with_tools(self, given: ToolTable, tools: ToolTable) -> None:
-        self.given = given
+    def _with_tools(self, typed_tools: ToolTable, tools: ToolTable) -> None:
+        self.typed_tools = typed_tools
         if (file := self.document.file.path) is not None:
-            self.host.keep_settings(self.host.settings.with_tools(file, runs.tools_text(given)))
+            self.host.keep_settings(self.host.settings.with_tools(file, runs.tools_text(typed_tools)))
         self._run_request(replace(self.request, tools=tools))
 
     # ---- the frame
@@ -644,7 +644,7 @@ class ProofScreen(BaseScreen):
             "The listing, what the control makes of it, and the findings; Tab changes between them.",
             "N and P go from finding to finding. Enter edits the listing, Esc ends editing.",
             "C chooses the control, V compares all controls.",
-            "The drawing shows the whole path, the moves of the line in hand, and the cutter at its end.",
+            "The drawing shows the whole path, the moves of the line with the cursor, and the cutter at its end.",
             "In the list of V, Space draws another control's path dotted under this one; B removes it.",
             "T gives a tool its diameter, and the verdict follows.",
             "+ and - zoom, 0 shows the whole program, M changes the characters of the drawing.",

@@ -160,7 +160,7 @@ class BaseScreen(Screen[None]):
     def action_finding(self, by: int) -> None:
         """Show the next or previous finding on MILL CONTOUR."""
         if (form := self.host.form_in_front()) is not None:
-            form.step_finding(by, form.in_hand)
+            form.step_finding(by, form.selected_finding)
 
     def help_lines(self) -> tuple[str, ...]:
         """Return sentences about this screen, for HELP."""
@@ -187,7 +187,7 @@ class BaseScreen(Screen[None]):
 
     def show_signs(self) -> None:
         """Redraw everything else that has signs after the character set has changed."""
-        if self.stands:
+        if self.is_live:
             self.show_session(self.current_session)
 
     @on(ScreenResume)
@@ -200,7 +200,7 @@ class BaseScreen(Screen[None]):
         self.follow(self.host.session)
         self.follow_displayed(self.host.displayed)
         self.show_work(self.host.longest_work)
-        if self.stands:
+        if self.is_live:
             self.query_one(Status).read_machine()
         self.call_after_refresh(self._place_cursor)
 
@@ -219,7 +219,7 @@ class BaseScreen(Screen[None]):
     def in_view(self) -> bool:
         """True if only dialogs cover the screen; Textual's `is_current` is also true of the next screen below."""
         stack = self.app.screen_stack
-        if not self.stands or self not in stack:
+        if not self.is_live or self not in stack:
             return False
         return all(isinstance(each, ModalScreen) for each in stack[stack.index(self) + 1 :])
 
@@ -249,7 +249,7 @@ class BaseScreen(Screen[None]):
 
     def refresh_frame(self) -> None:
         """Update prompt and softkeys; a screen that is not ready yet shows them once it is."""
-        if not self.stands:
+        if not self.is_live:
             return
         prompt = self.notice or self.too_small() or self.prompt_text()
         if self.host.guided and self.notice is None and prompt.tone is not Tone.ERROR:
@@ -262,7 +262,7 @@ class BaseScreen(Screen[None]):
         return self.GUIDE
 
     @property
-    def stands(self) -> bool:
+    def is_live(self) -> bool:
         """True if the screen is composed and not being removed; a removal first turns `display` off."""
         return self._composed and self.is_attached and self.display
 
@@ -273,7 +273,7 @@ class BaseScreen(Screen[None]):
 
     def show_work(self, work: Work | None) -> None:
         """Show the progress of long work in the place of the prompt or on the status line, if the screen is ready."""
-        if not self.stands:
+        if not self.is_live:
             return
         if not self.HAS_PROGRESS:
             self.query_one(Status).show_work("" if work is None else work.text)

@@ -146,7 +146,7 @@ class ContourScreen(BlockActions, FormScreen):
         self._form = table.Form.START
         self._cursor: Cursor | None = None
         self.entries: tuple[Entry, ...] = ()
-        self.in_hand: int | None = None
+        self.selected_finding: int | None = None
         """The index of the selected placed finding; None shows the segment, or on START the first finding."""
         self._shows_trial = False
         """Whether the other fields show what they would be with a half-typed number."""
@@ -199,7 +199,7 @@ class ContourScreen(BlockActions, FormScreen):
         self._offer_letters(session)
         if session.cursor is not self._cursor:
             self._cursor = session.cursor
-            self.in_hand = None
+            self.selected_finding = None
             if session.cursor.field is not None:
                 self.focus_field(session.cursor.field)
 
@@ -272,7 +272,7 @@ class ContourScreen(BlockActions, FormScreen):
     def show_work(self, work: Work | None) -> None:
         """Show the progress in the verdict's title too; the last verdict stays until the work is done."""
         super().show_work(work)
-        if not self.stands:
+        if not self.is_live:
             return
         verdict, displayed = self.query_one(Verdict), self.host.displayed
         if verdict.case is not None and not displayed.derived_block.complete:
@@ -311,15 +311,15 @@ class ContourScreen(BlockActions, FormScreen):
 
     def _show_drawings(self, displayed: Session) -> None:
         placed = self.placed
-        in_hand = self.in_hand
-        if in_hand is None and not displayed.place.segment and placed:
-            in_hand = 0
-        self.query_one(BlockDrawings).show(displayed, placed, in_hand, self.host.characters)
+        selected_finding = self.selected_finding
+        if selected_finding is None and not displayed.place.segment and placed:
+            selected_finding = 0
+        self.query_one(BlockDrawings).show(displayed, placed, selected_finding, self.host.characters)
 
     def action_finding(self, by: int) -> None:
         """Move the loupe to the next or previous finding; on START it is on the first one at the beginning."""
         first = None if self.on_segment else 0
-        self.step_finding(by, first if self.in_hand is None else self.in_hand)
+        self.step_finding(by, first if self.selected_finding is None else self.selected_finding)
 
     def step_finding(self, by: int, here: int | None) -> None:
         """Move the loupe to the finding after or before `here`, or to the first or last one if that is None."""
@@ -327,9 +327,9 @@ class ContourScreen(BlockActions, FormScreen):
         if not placed:
             self.say("There are no findings.")
             return
-        self.in_hand = (0 if by > 0 else len(placed) - 1) if here is None else (here + by) % len(placed)
+        self.selected_finding = (0 if by > 0 else len(placed) - 1) if here is None else (here + by) % len(placed)
         self._show_drawings(self.host.displayed)
-        self.query_one(FindingsList).highlighted = self.entries.index(placed[self.in_hand])
+        self.query_one(FindingsList).highlighted = self.entries.index(placed[self.selected_finding])
 
     @on(Drawing.Picked)
     def _picked_in_drawing(self, event: Drawing.Picked) -> None:
@@ -340,7 +340,7 @@ class ContourScreen(BlockActions, FormScreen):
         reach = NEAR_CELLS * (0.0 if event.drawing.drawn is None else event.drawing.drawn.view.scale)
         near = [at for at, entry in enumerate(placed) if entry.at is not None and dist(entry.at, event.at) <= reach]
         if near and event.drawing.id == "outline":
-            self.in_hand = near[0]
+            self.selected_finding = near[0]
             self._show_drawings(self.host.displayed)
             self.query_one(FindingsList).highlighted = self.entries.index(placed[near[0]])
         elif (segment := nearest_segment(self.current_session.derived_block, event.at)) is not None and self.take():
@@ -422,7 +422,7 @@ class ContourScreen(BlockActions, FormScreen):
             return
         entry = self.entries[event.option_index]
         placed = self.placed
-        self.in_hand = placed.index(entry) if entry in placed else None
+        self.selected_finding = placed.index(entry) if entry in placed else None
         self._show_drawings(self.host.displayed)
 
     @on(OptionList.OptionSelected, "#findings")
@@ -640,7 +640,7 @@ class ContourScreen(BlockActions, FormScreen):
         if not text:
             self.clear_notice()
         elif not (text.isascii() and text.isdigit()):
-            self.say(f"{text} is no segment number: type digits only, such as 3, then Enter.", Tone.ERROR)
+            self.say(f"{text} is not a segment number: type digits only, such as 3, then Enter.", Tone.ERROR)
         elif not last and int(text):
             self.say(f"No segment {text} yet. ENTER edits START, right arrow adds segment 1.", Tone.ERROR)
         elif int(text) > last:
@@ -738,9 +738,9 @@ class ContourScreen(BlockActions, FormScreen):
         if name == "finish_tool":
             rows.insert(0, Option("no finish pass", id="0"))
         field = self._field(name)
-        held = self.value(name)
-        here = f"{held.value:g}" if isinstance(held, Number) else ""
-        number = await self.app.push_screen_wait(ChooseLine("TOOLS", rows, here))
+        value = self.value(name)
+        current = f"{value.value:g}" if isinstance(value, Number) else ""
+        number = await self.app.push_screen_wait(ChooseLine("TOOLS", rows, current))
         if number and field is not None:
             self.host.apply(self.edited(field, number), self.label(field))
         self.focus_field(name)

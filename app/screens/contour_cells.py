@@ -122,8 +122,8 @@ def value_at(session: Session, name: str) -> Value | str:
     if name == "lookahead":
         return _lookahead(block)
     values = block.solved.values if segment is None else solved_segment(session).values
-    held: Value = values.get(name, getattr(typed, name))
-    return held
+    value: Value = values.get(name, getattr(typed, name))
+    return value
 
 
 def _lookahead(block: DerivedBlock) -> Value:

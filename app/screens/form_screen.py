@@ -27,7 +27,7 @@ CALCULATOR_KINDS: Final = frozenset({Kind.LENGTH, Kind.ANGLE})
 
 SOFTKEY_WAIT: Final = 2.0
 """Seconds after Esc in which a digit presses a softkey."""
-OLD_VALUE: Final = "The old number is back. Esc again, then 1 to 8, is a softkey."
+OLD_VALUE: Final = "The old number is back. Esc again, then 1 to 8, presses a softkey."
 ARMED_PROMPT: Final = "1 to 8 press the softkey now, as F1 to F8 do."
 
 
@@ -348,9 +348,9 @@ class FormScreen(BaseScreen):
             return Sentence("")
         if isinstance(widget, NumberField) and widget.edited:
             return self._half_typed(widget, field) or Sentence(self.prompt_of(field))
-        held = unusable(self.value(field.name), field, self.current_session.program.unit)
-        if held is not None:
-            return Sentence(held, Tone.ERROR)
+        trouble = unusable(self.value(field.name), field, self.current_session.program.unit)
+        if trouble is not None:
+            return Sentence(trouble, Tone.ERROR)
         return self.trouble(field) or Sentence(self.prompt_of(field))
 
     def prompt_of(self, field: Field) -> str:

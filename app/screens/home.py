@@ -72,7 +72,7 @@ class HomeScreen(BaseScreen):
         self.facts: dict[Path, Facts] = {}
         self.trouble = ""
         self._was_in_front = False
-        self._in_hand: Path | None = None
+        self._last_chosen: Path | None = None
         self._typed = TypedLetters()
 
     def compose_body(self) -> ComposeResult:
@@ -160,7 +160,7 @@ class HomeScreen(BaseScreen):
                 self._show_facts(await to_thread(facts_of, each.path, self.facts.get(each.path)))
 
     def _show_facts(self, facts: Facts) -> None:
-        if not self.stands or self.facts.get(facts.path) == facts:
+        if not self.is_live or self.facts.get(facts.path) == facts:
             return
         self.facts[facts.path] = facts
         table = self.query_one("#programs", DataTable)
@@ -179,8 +179,8 @@ class HomeScreen(BaseScreen):
     @on(DataTable.RowHighlighted)
     def _highlighted(self) -> None:
         each = self.chosen
-        if each is not None and each.path != self._in_hand:
-            self._in_hand = each.path
+        if each is not None and each.path != self._last_chosen:
+            self._last_chosen = each.path
             self.clear_notice()
         if each is not None and each.program:
             self._preview(each.path, each.name)
@@ -197,7 +197,7 @@ class HomeScreen(BaseScreen):
         self, path: Path, heading: str, subject: Drawable | None = None, derived: Derived | None = None
     ) -> None:
         """Show the drawing of a file unless the cursor has left it."""
-        if not self.stands or self.chosen is None or self.chosen.path != path:
+        if not self.is_live or self.chosen is None or self.chosen.path != path:
             return
         drawing = self.query_one("#preview", Drawing)
         drawing.heading, drawing.subject = heading, subject

@@ -97,8 +97,8 @@ _layer_of: Final = lru_cache(1)(background)
 
 
 @dataclass(frozen=True, eq=False, slots=True)
-class Picked:
-    """What the drawing shows: all contours dim, the chosen ones bright; `view` is the zoom window, None for all."""
+class ContoursSubject:
+    """The subject of the drawing: all contours dim, the chosen ones bright; `view` is the zoom window, None for all."""
 
     backdrop: tuple[Contour, ...]
     chosen: tuple[Contour, ...]
@@ -166,7 +166,7 @@ class ImportScreen(BaseScreen):
     PALETTE_ACTIONS: ClassVar[tuple[tuple[str, str, str], ...]] = (
         ("MARK", "screen.mark", "Space"),
         ("FILTER", "screen.filter", "/"),
-        ("BRANCH", "screen.branch", "B: where an open chain goes on"),
+        ("BRANCH", "screen.branch", "B: which chain continues an open one"),
     )
 
     def __init__(self, path: Path, *, fresh: bool = False) -> None:
@@ -176,8 +176,8 @@ class ImportScreen(BaseScreen):
         self.options: ImportOptions | None = None
         self.listed: ContourList | None = None
         self.marked: set[int] = set()
-        self.lines: dict[int, Contour] = {}
-        """The contours from before FIT ARCS, by number."""
+        self.unfitted: dict[int, Contour] = {}
+        """The contours as they were before FIT ARCS, by number."""
         self._unfolded: set[int] = set()
         self._backdrop: tuple[Contour, ...] = ()
         self._working, self._stopped = "", False
@@ -279,7 +279,7 @@ class ImportScreen(BaseScreen):
     async def _in_thread(self, function: Callable[..., Result], *arguments: object) -> Result:
         """Return the function's result; cancel the task if the screen has been closed in the meantime."""
         result = await to_thread(function, *arguments)
-        if not self.stands:
+        if not self.is_live:
             raise CancelledError
         return result
 
@@ -317,7 +317,7 @@ class ImportScreen(BaseScreen):
     def _take_list(self, listed: ContourList) -> None:
         self.drawing, self.options, self.listed = listed.drawing, listed.options, listed
         self.marked.clear()
-        self.lines.clear()
+        self.unfitted.clear()
         self._unfolded.clear()
         self._backdrop = listed.contours
         self.clear_notice()
@@ -392,13 +392,13 @@ class ImportScreen(BaseScreen):
     def _draw(self) -> None:
         drawing, contour = self.picture, self.contour
         before = drawing.subject
-        view = before.view if isinstance(before, Picked) and before.backdrop is self._backdrop else None
+        view = before.view if isinstance(before, ContoursSubject) and before.backdrop is self._backdrop else None
         if contour is None:
             drawing.heading, drawing.subject = "DRAWING", None
             return
         marked = f"   {len(self.marked)} marked" if self.marked else ""
         drawing.heading = f"chain {contour.number}  {contour.kind}{marked}"
-        drawing.subject = Picked(self._backdrop, self.chosen, self.unit, view)
+        drawing.subject = ContoursSubject(self._backdrop, self.chosen, self.unit, view)
 
     def _about(self) -> list[Content]:
         """Return start and direction, problems or fitted arcs, and what the reader did to the drawing, line by line."""
@@ -416,8 +416,10 @@ class ImportScreen(BaseScreen):
     def _remark(self, contour: Contour) -> Content:
         branch = self._branch_of(contour)
         if branch is not None:
-            ways = len(branch.contours) - 1
-            return Content.styled(f" branch at {place(branch.at, self.unit)}: {ways} ways. B chooses.", "$c-warn")
+            continuations = len(branch.contours) - 1
+            return Content.styled(
+                f" branch at {place(branch.at, self.unit)}: {continuations} ways. B chooses.", "$c-warn"
+            )
         if contour.problems:
             return Content.styled(f" {contour.kind} {'; '.join(contour.problems)}.", "$c-warn")
         if contour.fitted is not None:
@@ -481,9 +483,9 @@ class ImportScreen(BaseScreen):
     def _change(self, change: Callable[[Contour], Contour], contours: Collection[Contour]) -> None:
         """Replace some contours by changed ones; their rows stay where they are."""
         assert self.listed is not None
-        made = {contour.number: change(contour) for contour in contours}
+        changed = {contour.number: change(contour) for contour in contours}
         self.listed = replace(
-            self.listed, contours=tuple(made.get(contour.number, contour) for contour in self.listed.contours)
+            self.listed, contours=tuple(changed.get(contour.number, contour) for contour in self.listed.contours)
         )
 
     def action_reverse(self) -> None:
@@ -502,7 +504,7 @@ class ImportScreen(BaseScreen):
         if await self.app.push_screen_wait(steps) == "X Y":
             entries = [NumberEntry(f"{axis} START", Kind.LENGTH, "0") for axis in "XY"]
             values = await self.app.push_screen_wait(
-                NumberForm("START", ["The place of the chain that is nearest."], entries, unit)
+                NumberForm("START", ["The chain then starts at its point nearest to X, Y."], entries, unit)
             )
             if values:
                 x, y = (to_mm(value, unit) for value in values)
@@ -534,19 +536,19 @@ class ImportScreen(BaseScreen):
     async def _fit_chosen(self) -> None:
         contours, options = self.chosen, self.options
         assert options is not None
-        if any(contour.number in self.lines for contour in contours):
-            self._change(lambda each: traveled_like(self.lines.pop(each.number, each), each), contours)
+        if any(contour.number in self.unfitted for contour in contours):
+            self._change(lambda each: traveled_like(self.unfitted.pop(each.number, each), each), contours)
             self._after_fit("The lines are back.")
             return
         self.say("Fitting arcs.")
-        made = await self._in_thread(
+        fitted = await self._in_thread(
             lambda: [fitted_contour(contour, options.fit or FIT_TOLERANCE[self.unit]) for contour in contours]
         )
-        better = [new for old, new in zip(contours, made, strict=True) if new.drawn < old.drawn]
+        better = [new for old, new in zip(contours, fitted, strict=True) if new.drawn < old.drawn]
         if not better:
             self.say(f"FIT ARCS finds no arc within {length(options.fit, self.unit)}. F4 changes FIT.")
             return
-        self.lines |= {contour.number: self._contour(contour.number) for contour in better}
+        self.unfitted |= {contour.number: self._contour(contour.number) for contour in better}
         new = {contour.number: contour for contour in better}
         self._change(lambda each: new[each.number], better)
         self._after_fit("  ".join(fit_sentence(contour, self.unit) for contour in better[:MAX_NOTES]))
@@ -567,7 +569,7 @@ class ImportScreen(BaseScreen):
         most = from_mm(MAX_TOLERANCE[unit], unit)
         values = [("TOLERANCE", options.tolerance), ("FIT", options.fit)]
         entries = [NumberEntry(name, Kind.LENGTH, length(value, unit), most) for name, value in values]
-        lines = ["Ends within TOLERANCE are joined. Arcs leave curves and lines by FIT at most. The list is made anew."]
+        lines = ["Ends within TOLERANCE are joined. Arcs deviate from curves and lines by FIT at most."]
         typed = await self.app.push_screen_wait(NumberForm("TOLERANCE", lines, entries, unit))
         if typed:
             tolerance, fit = (to_mm(value, unit) for value in typed)
@@ -601,27 +603,28 @@ class ImportScreen(BaseScreen):
         if contour is None or branch is None:
             self.say("This chain does not end at a branch.")
             return
-        ways = [self._contour(number) for number in branch.contours if number != contour.number]
-        words = [(f"CHAIN {way.number}", f"{length(way.length, self.unit)} long") for way in ways]
+        continuations = [self._contour(number) for number in branch.contours if number != contour.number]
+        words = [(f"CHAIN {way.number}", f"{length(way.length, self.unit)} long") for way in continuations]
         answers = [Answer(f"{row} {chain}", long) for row, (chain, long) in enumerate(words, 1)]
-        title = f"branch at {place(branch.at, self.unit)}: {len(ways)} ways"
-        lines = [f"On which does chain {contour.number} go on?"]
+        title = f"branch at {place(branch.at, self.unit)}: {len(continuations)} ways"
+        lines = [f"Which chain continues chain {contour.number}?"]
         word = await self.app.push_screen_wait(Question(title, lines, answers, GO_BACK))
         if word != GO_BACK:
-            self._join(contour, ways[int(word.split()[0]) - 1])
+            self._join(contour, continuations[int(word.split()[0]) - 1])
 
-    def _join(self, contour: Contour, way: Contour) -> None:
+    def _join(self, contour: Contour, other: Contour) -> None:
         assert self.listed is not None
-        joined = with_joined(self.listed, contour.number, way.number)
+        joined = with_joined(self.listed, contour.number, other.number)
         if joined is None:
-            self.say(f"Chain {way.number} does not meet chain {contour.number} there.", Tone.ERROR)
+            self.say(f"Chain {other.number} does not meet chain {contour.number} there.", Tone.ERROR)
             return
-        total = contour.length + way.length
-        made = min(joined.contours, key=lambda each: abs(each.length - total))
+        total = contour.length + other.length
+        joined_contour = min(joined.contours, key=lambda each: abs(each.length - total))
         self._take_list(joined)
-        self._show_rows(made.number)
-        text = f"Chain {made.number}: {made.drawn} pieces, {'closed' if made.closed else 'open'}."
-        self.call_after_refresh(self.say, f"{text} Chains are numbered anew.")
+        self._show_rows(joined_contour.number)
+        kind = "closed" if joined_contour.closed else "open"
+        text = f"Chain {joined_contour.number}: {joined_contour.drawn} pieces, {kind}."
+        self.call_after_refresh(self.say, f"{text} The chains have new numbers.")
 
     def action_large(self) -> None:
         """Switch between the full-size drawing and the list."""
@@ -659,8 +662,8 @@ class ImportScreen(BaseScreen):
         if not contours or self._working:
             return
         count = max(len(contour.pieces) for contour in contours)
-        if count > MAX_SEGMENTS and not all(contour.number in self.lines for contour in contours):
-            lines = [f"{count:,} segments: the form shows them, the look-ahead of a control may not."]
+        if count > MAX_SEGMENTS and not all(contour.number in self.unfitted for contour in contours):
+            lines = [f"{count:,} segments: that may be too many for the look-ahead of a control."]
             answers = [Answer("FIT ARCS", "then look at the list"), Answer("TAKE", "as they are")]
             word = await self.app.push_screen_wait(Question("MANY SEGMENTS", lines, answers, "FIT ARCS"))
             if word == "FIT ARCS":
@@ -689,23 +692,23 @@ class ImportScreen(BaseScreen):
             program = empty_program(self.unit)
         self.say("Writing the segments.")
         try:
-            made, blocks = await self._in_thread(with_contours, program, contours, side)
+            edited, blocks = await self._in_thread(with_contours, program, contours, side)
         except DoesNotFitError as error:
             self.say(str(error), Tone.ERROR)
             return
         drawn = self.host.part_is_drawn or not any(block.segments for block in program.blocks)
-        if self.host.apply(made, f"IMPORT {self.path.name}"):
+        if self.host.apply(edited, f"IMPORT {self.path.name}"):
             self.host.part_is_drawn = drawn
             numbers = {contour.number for contour in contours}
-            self._show_taken(made, blocks, [] if self.listed is None else frame_notes(self.listed, numbers))
+            self._show_taken(edited, blocks, [] if self.listed is None else frame_notes(self.listed, numbers))
 
-    def _show_taken(self, made: Program, blocks: Sequence[ImportedBlock], frames: Sequence[str]) -> None:
+    def _show_taken(self, program: Program, blocks: Sequence[ImportedBlock], frames: Sequence[str]) -> None:
         """Show the form of the first new block, and the notes on all of them."""
-        first = len(made.blocks) - len(blocks) + 1
+        first = len(program.blocks) - len(blocks) + 1
         self.host.move(FormPlace(first))
         self.host.action_contour()
-        which = f"blocks {first}-{len(made.blocks)}" if len(blocks) > 1 else f"block {first}"
-        text = f"Took {which} from {cut_in_middle(self.path.name, NAME_WIDTH)}. Ctrl+Z takes it back."
+        blocks_text = f"blocks {first}-{len(program.blocks)}" if len(blocks) > 1 else f"block {first}"
+        text = f"Took {blocks_text} from {cut_in_middle(self.path.name, NAME_WIDTH)}. Ctrl+Z undoes it."
         if len(blocks) > 1 and blocks[0].block.z_bottom is None:
             text += " Depths typed in one block go into all of them with Ctrl+K SAME VALUES."
         self.app.notify(text, timeout=4 if len(blocks) == 1 else 8)
@@ -760,12 +763,12 @@ CHANGE_OF_ANSWER: Final[dict[str, Callable[[Contour], Contour]]] = {
 """What each answer to START does to a contour."""
 
 HELP_LINES: Final = (
-    "Each row is one chain of the drawing: closed ones by size, holes after what they lie in, open ones last.",
+    "Each row is one chain of the drawing: closed ones by size, holes after the chain around them, open ones last.",
     "Space marks a row, Enter or F1 makes a MILL CONTOUR block of each marked chain, in one edit.",
     "F3 FIT ARCS makes arcs of runs of short lines; F3 again brings the lines back.",
     "F5 START moves the start: its keys step on, Enter repeats a step, Esc ends. The drawing follows.",
     "F6 REVERSE turns the direction; CUTTER COMP. follows it.",
-    "B asks where an open chain goes on at a branch.",
+    "B asks which chain continues an open chain at a branch.",
 )
 
 

@@ -72,7 +72,7 @@ class ImportToolsScreen(EntryScreen):
             return
         faults.update(Content("\n").join([_fault(finding) for finding in table.findings]))
         if table.errors:
-            self.say("Nothing was imported. Mend the lines that are listed.", Tone.ERROR)
+            self.say("Nothing was imported. Correct the lines that are listed.", Tone.ERROR)
             return
         ask = Question("IMPORT?", list(changes(program, table.tools)), [Answer("IMPORT")], "GO BACK")
         if await self.app.push_screen_wait(ask) == "IMPORT":
@@ -90,10 +90,10 @@ def changes(program: Program, tools: tuple[Tool, ...]) -> Iterator[str]:
     """Yield a few lines on what the import would change in the tool table."""
     known = {tool.number: tool for tool in program.tools}
     new = [tool for tool in tools if tool.number not in known]
-    other = [tool for tool in tools if tool.number in known and known[tool.number] != tool]
-    yield f"Tools: {len(tools)}. New: {len(new)}. In place of one that differs: {len(other)}."
-    for tool in other[:MAX_LISTED]:
+    changed = [tool for tool in tools if tool.number in known and known[tool.number] != tool]
+    yield f"Tools: {len(tools)}. New: {len(new)}. Changed: {len(changed)}."
+    for tool in changed[:MAX_LISTED]:
         before, after = tool_line(known[tool.number], program.unit), tool_line(tool, program.unit)
         yield f"{' '.join(before.split())} becomes {' '.join(after.split()[1:])}"
-    if len(other) > MAX_LISTED:
-        yield f"{len(other) - MAX_LISTED} more change."
+    if len(changed) > MAX_LISTED:
+        yield f"{len(changed) - MAX_LISTED} more change."

@@ -80,7 +80,7 @@ class LookaheadScreen(BaseScreen):
 
     def refresh_frame(self) -> None:
         """Name the value with the cursor on its softkey."""
-        if self.stands and self.row is not None:
+        if self.is_live and self.row is not None:
             softkeys = self.query_one(Softkeys)
             take, *others = softkeys.keys
             if take is not None:
@@ -153,5 +153,5 @@ def _worst_point(row: Row) -> tuple[float, float] | None:
     """Return the point of a value's deepest gouge, else of the thickest uncut stock; None if there is neither."""
     if row.verdict.gouges:
         return row.verdict.gouges[0].surface_at
-    left = list(row.verdict.uncut)
-    return max(left, key=lambda stretch: stretch.thickness).thickest if left else None
+    stretches = list(row.verdict.uncut)
+    return max(stretches, key=lambda stretch: stretch.thickness).thickest if stretches else None

@@ -72,8 +72,8 @@ class SettingsForm(FormScreen):
         return tuple(self._cell(field, number // ROWS, unit) for number, field in enumerate(self.FIELDS))
 
     def _cell(self, field: Field, column: int, unit: Unit) -> Cell:
-        held, usual = self.value(field.name), default_value(field.name, unit)
-        value = Solved(usual, Origin.USUAL) if held is None and usual is not None else held
+        typed, default = self.value(field.name), default_value(field.name, unit)
+        value = Solved(default, Origin.USUAL) if typed is None and default is not None else typed
         return cell_of(field, value, unit, column)
 
     def show_session(self, session: Session) -> None:

@@ -124,7 +124,7 @@ class PostScreen(EntryScreen):
         with suppress(Stopped):
             with self.host.working(self._make_stopped) as work:
                 made = await to_thread(nc_text, program, name, self.choice, progress=work)
-                if work.stopped or not self.stands:
+                if work.stopped or not self.is_live:
                     return
             self.made = made
             self._show()
@@ -155,9 +155,11 @@ class PostScreen(EntryScreen):
         against = [Content.styled(f"{marks.gouge} {text}", "$c-err") for text in self.made.against]
         notes = [Content.styled(f"{marks.warning} {text}", "$c-warn") for text in self.made.notes]
         ready = [] if against else [Content.styled(f"{marks.good} Ready to post.", "$c-good")]
-        left = [Content.styled(f"{marks.warning} {line}", "$c-uncut") for line in objections(session.derived)]
+        uncut_or_deleted = [
+            Content.styled(f"{marks.warning} {line}", "$c-uncut") for line in objections(session.derived)
+        ]
         unsaved = [Content.styled("The program is not saved: Ctrl+S saves it.", "$c-label")] if session.unsaved else []
-        return [*against, *ready, *left, *notes, *unsaved]
+        return [*against, *ready, *uncut_or_deleted, *notes, *unsaved]
 
     def prompt_text(self) -> Sentence:
         """Return what Enter does."""
@@ -166,10 +168,10 @@ class PostScreen(EntryScreen):
             return Sentence(f"{chosen.name}, {chosen.about}. Up, down or letters choose, Enter goes back to the name.")
         if self.made is None or not self.made.against:
             return Sentence("NC file name, Enter posts. F2 or Tab: which control compensates.")
-        what = f"{counted(len(self.made.against), 'finding')} must be corrected."
+        trouble = f"{counted(len(self.made.against), 'finding')} must be corrected."
         if self.made.overridable:
-            what = "A gouge must be corrected or overridden."
-        return Sentence(f"NC file name. {what}", Tone.WARNING)
+            trouble = "A gouge must be corrected or overridden."
+        return Sentence(f"NC file name. {trouble}", Tone.WARNING)
 
     @work(exclusive=True, group="posting")
     async def entered(self, text: str) -> None:
@@ -179,7 +181,7 @@ class PostScreen(EntryScreen):
             return
         if self.made is None:
             self._enter_waits = True
-            self.say("The NC text is being made and posted then. Esc stops it.")
+            self.say("The NC text is still being made; it is posted then. Esc stops it.")
             return
         override = None
         if self.made.against:
@@ -234,8 +236,8 @@ class PostScreen(EntryScreen):
         if written is None:
             return
         self.host.posted_for = choice
-        where, lines = written[0], written[1].count("\n")
-        what = "the center path" if choice == CENTER_PATH else f"for {display_name(choice)}"
-        self.notify(f"Posted {what}: {where}, {lines} lines.", timeout=5)
+        path, lines = written[0], written[1].count("\n")
+        subject = "the center path" if choice == CENTER_PATH else f"for {display_name(choice)}"
+        self.notify(f"Posted {subject}: {path}, {lines} lines.", timeout=5)
         self.app.call_later(self.app.run_action, "app.back")
         self.app.call_later(self.host.end_guide, f"Posted. {GUIDE_COMPLETED}")

@@ -95,7 +95,7 @@ class ProgramScreen(BlockActions):
     async def _time(self, derived: Derived) -> None:
         """Show the times in the title of the drawing and next to the number of blocks."""
         total, blocks = await to_thread(times_in_words, derived)
-        if not self.stands or derived is not self.current_session.derived:
+        if not self.is_live or derived is not self.current_session.derived:
             return
         self.times = blocks
         self.query_one("#block-count", Label).update(f"{counted(len(derived.blocks), 'block')}   {total}")

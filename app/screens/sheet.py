@@ -56,7 +56,7 @@ class SheetScreen(EntryScreen):
     async def _make(self, program: Program) -> None:
         path = Path(Path(self._text).name or "part").with_suffix(".txt")
         text = await to_thread(setup_sheet, program, path, self.host.now())
-        if self.stands:
+        if self.is_live:
             self.query_one("#sheet-text", Static).update(Content(text))
 
     def action_ending(self, ending: str) -> None:

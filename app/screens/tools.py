@@ -323,11 +323,11 @@ def _typed(program: Program, tool: Tool, field: Field, text: str) -> Edited:
 
 
 def _renumbered(program: Program, tool: Tool, typed: Typed) -> Edited:
-    ways = f"Type another one. Esc brings {tool.number} back, F1 deletes tool {tool.number}."
+    remedy = f"Type another one. Esc brings {tool.number} back, F1 deletes tool {tool.number}."
     if not isinstance(typed, Number) or typed.value != int(typed.value):
-        return Refused(f"A tool needs a whole number from 1 to 9999. {ways}")
+        return Refused(f"A tool needs a whole number from 1 to 9999. {remedy}")
     if any(other.number == typed.value for other in program.tools if other is not tool):
-        return Refused(f"Tool {typed.value:g} exists already. {ways}")
+        return Refused(f"Tool {typed.value:g} exists already. {remedy}")
     outcome = set_tool(program, replace(tool, number=int(typed.value)))
     return outcome if isinstance(outcome, Refused) else delete_tool(outcome, tool.number)
 

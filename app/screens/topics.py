@@ -80,23 +80,24 @@ _LINE_AND_ARC: Final = {
     "z_end": _END_Z,
     "point_x": _POINT,
     "point_y": _POINT,
-    "tangent": Topic("YES where it goes on from the segment before without a corner and without turning back."),
+    "tangent": Topic("YES where it continues the segment before without a corner and without turning back."),
     "choice": Topic(
-        "The drawing shows all of them. Space, left and right step; nothing is posted until one is picked."
+        "The drawing shows all solutions. Space, left and right step through them; nothing is posted until one is "
+        "picked."
     ),
 }
 """The topics of fields that a LINE and an ARC share."""
 
 TOPICS: Final[Mapping[tuple[Form, str], Topic]] = {
     (Form.START, "tool"): Topic(
-        "The tool's diameter comes from TOOL SETUP; half of it is how far the path stands off."
+        "The tool's diameter comes from TOOL SETUP; the path runs half of it away from the contour."
     ),
     (Form.START, "cutter_comp"): Topic(
         "ON runs the tool's center on the contour. LEFT and RIGHT keep the tool beside it, seen along the travel. "
         "PROFILE also clears the material outside in several passes.",
         _SIDES,
     ),
-    (Form.START, "finish_tool"): Topic("0 is none. Else TOOL leaves the finish allowances, and this tool takes them."),
+    (Form.START, "finish_tool"): Topic("0 is none. Else TOOL leaves the finish allowances, and this tool cuts them."),
     (Form.START, "x_start"): Topic(
         "START is where segment 1 begins. The middle of a side is a better place than a corner."
     ),
@@ -104,7 +105,7 @@ TOPICS: Final[Mapping[tuple[Form, str], Topic]] = {
     (Form.START, "z_start"): Topic("The surface of the raw material. Rapids stay above it by RETRACT CLEARANCE."),
     (Form.START, "z_bottom"): Topic("The deepest the tool may go, below Z START: usually a negative number."),
     (Form.START, "plunge_feed"): Topic(
-        "The tool goes straight down with it, in the material, and mills with it where FEED of segment 1 is blank."
+        "The feed straight down into the material. The tool also mills at it where FEED of segment 1 is blank."
     ),
     (Form.START, "speed"): Topic("Written as S before the block begins."),
     (Form.START, "peck_depth"): Topic(
@@ -112,9 +113,9 @@ TOPICS: Final[Mapping[tuple[Form, str], Topic]] = {
     ),
     (Form.START, "coolant"): Topic("Turned on when the spindle turns. Blank takes the coolant of the tool."),
     (Form.START, "lookahead"): Topic(
-        "How many segments further the path is checked for a segment that the tool cannot reach. CAL is the "
-        "control's own value; one that is too small gouges, one that is too large leaves corners. Space shows all "
-        "values, F3 goes back to CAL.",
+        "How many segments ahead the path is checked for places that the tool cannot enter. CAL is the control's own "
+        "value; one that is too small gouges, one that is too large leaves more uncut. Space shows all values, F3 "
+        "goes back to CAL.",
         _AHEAD,
     ),
     (Form.LINE, "length"): Topic("Two of X END, Y END, XY LENGTH and XY ANGLE fix a line; the others are calculated."),
@@ -124,20 +125,18 @@ TOPICS: Final[Mapping[tuple[Form, str], Topic]] = {
     (Form.ARC, "direction"): Topic("CW turns as the hands of a clock, seen from above."),
     (Form.ARC, "x_center"): _CENTER,
     (Form.ARC, "y_center"): _CENTER,
-    (Form.ARC, "radius"): Topic(
-        "From the center to the contour, not of the tool's path. With both ends, two arcs may fit."
-    ),
+    (Form.ARC, "radius"): Topic("The radius of the contour, not of the tool's path. With both ends, two arcs may fit."),
     (Form.ARC, "sweep"): Topic("How far around it goes, in its direction. 360 is the full circle.", _SWEEP),
     **{(form, name): topic for form in (Form.LINE, Form.ARC) for name, topic in _LINE_AND_ARC.items()},
     **{(form, "feed"): _FEED for form in (Form.LINE, Form.ARC, Form.BLEND, Form.CHAMFER)},
-    (Form.LINE, "point_dist"): Topic("With POINT X and POINT Y: how far the line passes beside that point."),
+    (Form.LINE, "point_dist"): Topic("With POINT X and POINT Y: how far from that point the line passes."),
     (Form.LINE, "parallel"): Topic("The line runs in the direction of that LINE, or the opposite one."),
     (Form.LINE, "offset"): Topic("With PARALLEL TO: how far apart the two lines are."),
     (Form.ARC, "start_angle"): Topic("The direction of travel where the arc starts.", _ANGLE),
     (Form.BLEND, "radius"): Topic("The two segments are shortened to where this arc touches them.", _CORNER),
     (Form.CHAMFER, "length"): Topic("The two segments are shortened by this length.", _CORNER),
-    (Form.TOOL, "number"): Topic("The number a block calls and T and H write. Another number moves the row."),
-    (Form.TOOL, "type"): Topic("Any words; they stand in the NC file's head and on the setup sheet."),
+    (Form.TOOL, "number"): Topic("Blocks call the tool by it; T and H in the NC file have it. It sorts the table."),
+    (Form.TOOL, "type"): Topic("Any words; they are in the NC file's head and on the setup sheet."),
     (Form.TOOL, "diameter"): Topic("The diameter it cuts. Every path of the tool follows a change at once."),
     (Form.TOOL, "speed"): Topic("Blocks with this tool run at it where their own SPEED is blank."),
     (Form.TOOL, "feed"): Topic("Blocks with this tool mill at it where segment 1 has no FEED."),
@@ -151,15 +150,15 @@ TOPICS: Final[Mapping[tuple[Form, str], Topic]] = {
     (Form.PARAMETERS, "finish_z"): Topic("Only with a FINISH TOOL on START: what it takes off the floor."),
     (Form.PARAMETERS, "pocket_overlap"): Topic("50 moves each PROFILE pass over by half the tool."),
     (Form.PARAMETERS, "max_offset"): Topic("The material outside the contour. 0 makes one pass along it."),
-    (Form.PARAMETERS, "retract_clearance"): Topic("Above Z START nothing may stand in the way this high."),
-    (Form.PARAMETERS, "peck_clearance"): Topic("From there on down it is PLUNGE FEED."),
+    (Form.PARAMETERS, "retract_clearance"): Topic("Up to this height above Z START nothing may be in the way."),
+    (Form.PARAMETERS, "peck_clearance"): Topic("From there the tool goes on down at PLUNGE FEED."),
     (Form.PARAMETERS, "path"): Topic(
         "CONTROL is what the control itself would mill. BEST reaches all the tool can reach."
     ),
     (Form.PARAMETERS, "rapid_feed"): Topic("The times on PROGRAM and the setup sheet are based on it."),
-    (Form.SETUP, "name"): Topic("Any words; signs a control would obey are written as others."),
-    (Form.SETUP, "work_offset"): Topic("Which of the machine's zero points the part is clamped to."),
-    (Form.SETUP, "safe_z"): Topic("Where the tool changes and where it ends. Clamps must stay below it."),
+    (Form.SETUP, "name"): Topic("Any words; the NC file has other characters for those that a control would act on."),
+    (Form.SETUP, "work_offset"): Topic("Which of the machine's zero points the program counts from."),
+    (Form.SETUP, "safe_z"): Topic("The height of tool changes and of the program's end. Clamps must be below it."),
 }
 """The topics by form and field name."""
 

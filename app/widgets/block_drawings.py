@@ -40,15 +40,15 @@ class BlockDrawings(Horizontal):
         self.query_one("#outline", Drawing).heading = "PART"
         self.query_one("#whole", Drawing).heading = "DRAWING  whole part"
 
-    def show(self, session: Session, entries: Sequence[Entry], in_hand: int | None, characters: str) -> None:
-        """Draw the block with the cursor; the loupe is on finding `in_hand`, or on the segment if that is None.
+    def show(self, session: Session, entries: Sequence[Entry], selected_finding: int | None, characters: str) -> None:
+        """Draw the block with the cursor; the loupe is on `selected_finding`, or on the segment if that is None.
 
         `entries` are the findings that have a position.
         """
         from core.pipeline.plot import Subject
 
         block, unit, segment = session.derived_block, session.program.unit, session.place.segment
-        near, title, kind = _loupe(session, entries, in_hand, characters)
+        near, title, kind = _loupe(session, entries, selected_finding, characters)
         subjects = {
             "outline": Subject(block, unit, segment, outline=True, trouble=_numbers(entries)),
             "whole": Subject(block, unit, segment),
@@ -84,12 +84,12 @@ def _numbers(entries: Sequence[Entry]) -> tuple[Mark, ...]:
 
 
 def _loupe(
-    session: Session, entries: Sequence[Entry], in_hand: int | None, characters: str
+    session: Session, entries: Sequence[Entry], selected_finding: int | None, characters: str
 ) -> tuple[Point | None, str, EntryKind | None]:
     """Return the loupe's center (None for the whole part), its title, and the kind of the finding."""
-    if in_hand is not None and in_hand < len(entries):
-        entry = entries[in_hand]
-        return entry.at, heading(entries, in_hand, MARKS_OF_CHARACTERS[characters]), entry.kind
+    if selected_finding is not None and selected_finding < len(entries):
+        entry = entries[selected_finding]
+        return entry.at, heading(entries, selected_finding, MARKS_OF_CHARACTERS[characters]), entry.kind
     number = session.place.segment
     solved = session.derived_block.solved.segments
     solution = solution_at(session.derived_block.solved, number)

@@ -216,9 +216,13 @@ def chips(case: Case, marks: Marks, *, findings_key: str = "F10", width: int = C
     if case.block.side is None or judgment is None or _stopped_short(case):
         return _first_error(case, marks)
     gouge = _gouge_chip(judgment, case.unit, marks)
-    left = length(judgment.uncut_length, case.unit)
+    uncut_length = length(judgment.uncut_length, case.unit)
     has_uncut = not isfinite(judgment.uncut_length) or judgment.uncut
-    uncut = (f"{marks.warning} UNCUT {left} long", "$c-uncut") if has_uncut else (f"{marks.good} UNCUT none", "$c-good")
+    uncut = (
+        (f"{marks.warning} UNCUT {uncut_length} long", "$c-uncut")
+        if has_uncut
+        else (f"{marks.good} UNCUT none", "$c-good")
+    )
     deleted, counted = _deleted_chips(case.block, marks)
     # the chips sum up what is uncut or deleted; the findings list has the rest
     others = () if judgment.gouges else _others(case.block, marks, findings_key)
@@ -240,10 +244,10 @@ def _others(block: DerivedBlock, marks: Marks, findings_key: str) -> tuple[tuple
 
 def _deleted_chips(block: DerivedBlock, marks: Marks) -> tuple[tuple[str, str], tuple[str, str]]:
     """Return DELETED with the numbers of the segments, and with their count, for which there is more often room."""
-    gone = deleted_numbers(block)
-    texts = (f"DELETED {segment_numbers(gone)}", f"{len(gone)} DELETED")
+    deleted = deleted_numbers(block)
+    texts = (f"DELETED {segment_numbers(deleted)}", f"{len(deleted)} DELETED")
     named, counted = (
-        (f"{marks.deleted} {text}", "$c-deleted") if gone else (f"{marks.good} DELETED none", "$c-good")
+        (f"{marks.deleted} {text}", "$c-deleted") if deleted else (f"{marks.good} DELETED none", "$c-good")
         for text in texts
     )
     return named, counted
@@ -262,10 +266,10 @@ def _first_error(case: Case, marks: Marks) -> Content:
         return Content("")
     first = next((error for error in case.block.errors if error.code not in TO_TYPE), case.block.errors[0])
     role = "$c-warn" if first.code in TO_TYPE else "$c-err"
-    said = sentence(first, case.unit)
+    text_of_error = sentence(first, case.unit)
     if first.code == "UNREADABLE" and first.segment:
-        said = f"Segment {first.segment:g}, {said}"
-    text = f"{marks.gouge} {said}"
+        text_of_error = f"Segment {first.segment:g}, {text_of_error}"
+    text = f"{marks.gouge} {text_of_error}"
     # the prompt and F10 give the full sentence
     if len(text) > CHIPS_WIDTH and ". " in text[:CHIPS_WIDTH]:
         text = f"{text.partition('. ')[0]}."

@@ -111,13 +111,10 @@ def _blank_feeds(block: Block, solved: SolvedBlock, program: Program) -> Iterato
     feed_of_start = solved.segments[0].values.get("feed")
     if isinstance(feed_of_start, Solved) and feed_of_start.origin is Origin.TOOL:
         return
-    subject = (
-        "the contour is"
-        if count_blank == count
-        else "it is"
-        if count_blank == 1
-        else f"segments 1 to {count_blank} are"
-    )
+    if count_blank == count:
+        subject = "the contour is"
+    else:
+        subject = "it is" if count_blank == 1 else f"segments 1 to {count_blank} are"
     feed = show(from_mm(solved.plunge_feed, program.unit), Kind.FEED, program.unit)
     text = f"FEED is blank: {subject} cut at PLUNGE FEED {feed}. Enter FEED."
     yield Finding("PLUNGE_FED", Severity.WARNING, text, 1, "feed")

@@ -154,10 +154,10 @@ def _rough_errors(rough_pass: RoughPass, *, posts_control: bool) -> Iterator[Fin
         text = f"Roughing that leaves {{0}} {fault}."
         yield Finding("ROUGH_GOUGES", Severity.ERROR, text, lengths=(rough_pass.stock,))
     if not rough_pass.loops:
-        text = "Roughing that leaves {0} has no room: it is skipped."
+        text = "No room for the {0} roughing pass: skipped."
         back = any(finding.code == NO_PATH and finding.field for finding in rough_pass.compensated.findings)
         if posts_control and back:
-            text = "Roughing that leaves {0} comes back to its start next to a corner: it is skipped. "
+            text = "The {0} roughing pass comes back to its start next to a corner and is skipped. "
             text += "Start in the middle of a side."
         yield Finding("ROUGH_EMPTY", Severity.WARNING, text, lengths=(rough_pass.stock,))
 

@@ -70,7 +70,7 @@ def read_dxf(data: bytes, name: str, *, damaged: bool = False, progress: Progres
     if len(data) > MAX_BYTES:
         raise too_much("bytes", len(data), MAX_BYTES)
     if not is_dxf(data):
-        raise DrawingError("NOT_DXF", f"{name} is no DXF file.")
+        raise DrawingError("NOT_DXF", f"{name} is not a DXF file.")
     progress("reading", 0, 1)
     scan, document = document_of(data, damaged=damaged)
     reader = _Reader(document, progress, damaged=damaged)
@@ -224,7 +224,7 @@ class _Reader:
             raise too_much("lines and curves", len(self.shapes) + len(shapes), MAX_SHAPES)
         numbers = [number for shape in shapes for number in _numbers(shape)]
         if not all(map(isfinite, numbers)):
-            self._unreadable(entity, "a coordinate is no number")
+            self._unreadable(entity, "a coordinate is not a number")
             return
         largest = max(numbers, key=abs, default=0.0)
         if abs(largest) > LARGEST_COORDINATE:

@@ -439,7 +439,7 @@ def _loaded(data: bytes, scan: Scan, *, damaged: bool) -> Document:
     try:
         return read(io.StringIO(text))
     except Exception as error:  # noqa: BLE001  # as above
-        why = f"line {scan.bad_line} is no group code" if scan.bad_line else _structure_fault(error)
+        why = f"line {scan.bad_line} is not a group code" if scan.bad_line else _structure_fault(error)
     with suppress(Exception):
         return Document.load(tag_reorder_layer(ascii_tags_loader(io.StringIO(text))))
     recovered = _recovered(text.encode(encoding, "surrogateescape"))

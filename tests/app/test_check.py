@@ -358,7 +358,7 @@ def test_a_folder_report_names_skipped_files_and_counts_warnings(
     (tmp_path / "README").write_text("?")
     status, out, err = output(capsys, tmp_path, "--control", "fanuc:a", "--tool", "1=6")
     assert status == 0
-    assert "2 files left out that are no programs by their names: .pdf README" in err
+    assert "2 files left out, whose names are not those of programs: .pdf README" in err
     first, second, last = out.splitlines()
     assert first.endswith("O1234: fanuc:a: runs")
     assert second.endswith("part.spf: fanuc:a: runs, 1 warning (FN-POINT)")

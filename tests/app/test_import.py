@@ -131,7 +131,7 @@ def test_a_truncated_file_is_taken_only_with_the_damaged_option(
 @pytest.mark.parametrize(
     ("name", "words"),
     [
-        ("d20-not-dxf.dxf", "d20-not-dxf.dxf is no DXF file."),
+        ("d20-not-dxf.dxf", "d20-not-dxf.dxf is not a DXF file."),
         ("d17-empty.dxf", "1 TEXT was skipped"),
         ("gone.dxf", "gone.dxf cannot be read: there is no such file or folder."),
     ],

@@ -50,7 +50,7 @@ async def test_a_click_on_the_number_of_a_finding_selects_it(user: Operator):
     place = user.screen.entries[2].at
     assert place is not None
     await click_at(user, user.screen.query_one("#outline", Drawing), place)
-    assert user.screen.in_hand == 2
+    assert user.screen.selected_finding == 2
     assert user.session.place.segment == 0
 
 

@@ -32,7 +32,7 @@ def test_an_invalid_port_is_refused_in_a_sentence(port: str, capsys: pytest.Capt
     with pytest.raises(SystemExit) as error:
         main(["serve", f"--port={port}"])
     assert error.value.code == 2
-    assert f"{port} is no port; ports go from 1 to 65535." in capsys.readouterr().err
+    assert f"{port} is not a port; ports go from 1 to 65535." in capsys.readouterr().err
 
 
 @pytest.mark.parametrize(

@@ -20,7 +20,7 @@ from app.documents.programs import example
 from app.file_actions import session_of
 from app.nc_proof.compare_controls import CompareControls
 from app.nc_proof.listing import Listing
-from app.nc_proof.runs import RanDotted, Result, RunRequest, first_tool, header_tools, likely_control, read_tools, run
+from app.nc_proof.runs import DottedRun, Result, RunRequest, first_tool, header_tools, likely_control, read_tools, run
 from app.nc_proof.screen import ProofScreen, read_tool
 from app.screens.base import OpeningScreen
 from app.screens.dialogs import Question
@@ -172,8 +172,8 @@ async def test_next_finding_brings_its_place_into_an_enlarged_drawing(tmp_path):
             before = user.line
             await user.press("n")
             assert user.line != before
-            assert user.proof.view_of is not None
-            assert user.proof.view_of.center == cutter_at_line(user.proof.result.proof, user.line)[0]
+            assert user.proof.window_view is not None
+            assert user.proof.window_view.center == cutter_at_line(user.proof.result.proof, user.line)[0]
 
 
 async def test_the_wheel_zooms_about_the_cutter(tmp_path):
@@ -186,10 +186,10 @@ async def test_the_wheel_zooms_about_the_cutter(tmp_path):
         x, y, *_ = drawing.content_region
         user.app.post_message(MouseScrollUp(None, x, y, 0, 0, 0, False, False, False))
         await user.settle()
-        assert user.proof.view_of == drawing.subject.view
-        assert user.proof.view_of.cell(cutter, *drawing.size) == pytest.approx(before)
+        assert user.proof.window_view == drawing.subject.view
+        assert user.proof.window_view.cell(cutter, *drawing.size) == pytest.approx(before)
         await user.press("0")
-        assert user.proof.view_of is drawing.subject.view is None
+        assert user.proof.window_view is drawing.subject.view is None
 
 
 async def test_the_new_program_beside_an_nc_text_can_be_saved(tmp_path, monkeypatch):
@@ -301,7 +301,7 @@ async def test_a_posted_program_opens_with_the_control_and_the_tools_of_its_head
             assert "runs" in user.outcome, control
             assert user.app.settings.tools_of(path) == "", control
             if control != "klartext":
-                assert user.prompt.endswith("Its tools are those that its header names."), control
+                assert user.prompt.endswith("It has the tools that its header names."), control
 
 
 def test_tools_in_the_comments_of_another_program_are_not_taken_for_a_header():
@@ -445,7 +445,7 @@ async def test_stopping_the_dotted_run_leaves_the_verdict_unchanged(tmp_path, mo
         await with_tool(user, "1=.75")
         before, started = user.outcome, Event()
 
-        def endless(*arguments: Any) -> RanDotted:
+        def endless(*arguments: Any) -> DottedRun:
             started.set()
             while True:
                 arguments[-1](0.5)

@@ -32,7 +32,7 @@ async def test_esc_then_a_digit_presses_the_softkey(user: Operator) -> None:
 
 async def test_a_digit_after_another_key_is_typed(user: Operator) -> None:
     await user.press("tab", "7", "escape")
-    assert user.prompt == "The old number is back. Esc again, then 1 to 8, is a softkey."
+    assert user.prompt == "The old number is back. Esc again, then 1 to 8, presses a softkey."
     await user.press("6", "enter")
     assert user.session.block.tool == Number(6.0), "Esc that removes a half-typed number arms no softkey"
     await user.press("escape", "tab", "4", "enter")
@@ -56,7 +56,7 @@ async def test_esc_after_an_unreadable_text_restores_the_old_value(user: Operato
     await user.press("escape")
     assert user.session.block.x_start == before
     assert user.at == "x_start"
-    assert user.prompt == "The old number is back. Esc again, then 1 to 8, is a softkey."
+    assert user.prompt == "The old number is back. Esc again, then 1 to 8, presses a softkey."
     await user.press("3", "enter")
     assert user.session.block.x_start == Number(3.0)
 

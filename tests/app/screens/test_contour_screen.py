@@ -82,7 +82,7 @@ async def test_moving_between_segments_shows_the_form_of_each_kind(user: Operato
 async def test_a_number_on_segment_goes_to_that_segment(user: Operator):
     for typed in ("I1.2", "2,400.5", "1-2"):
         await user.press(f"'{typed}", "enter")
-        assert user.prompt == f"{typed} is no segment number: type digits only, such as 3, then Enter."
+        assert user.prompt == f"{typed} is not a segment number: type digits only, such as 3, then Enter."
         assert user.session.place.segment == 0
         await user.begin("pocket")
     await user.press("'8", "enter")

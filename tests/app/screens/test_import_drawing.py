@@ -276,7 +276,7 @@ async def test_a_damaged_file_is_taken_only_by_yes(tmp_path):
 
 SLOPE = [(0, "LINE"), (8, "SLOPE"), (10, 0), (20, 0), (30, 0), (11, 1), (21, 1), (31, 9)]
 UNLISTABLE: dict[str, Path | bytes] = {
-    "d20-not-dxf.dxf is no DXF file.": DATA / "d20-not-dxf.dxf",
+    "d20-not-dxf.dxf is not a DXF file.": DATA / "d20-not-dxf.dxf",
     "in model space: 1 TEXT was skipped.": DATA / "d17-empty.dxf",
     ": 0 entities could be read.": dxf(*square(0, 0, 10))[:110],
     "gone.dxf cannot be read: there is no such file or folder. Check the name.": DATA / "gone.dxf",
@@ -476,7 +476,7 @@ async def test_a_spline_export_of_two_thousand_lines_becomes_arcs_and_can_be_und
         before = dumps(user.session.program)
         assert user.rows[0][3] == "2000"
         await user.press("f3")
-        await user.until(lambda: user.importing.lines)
+        await user.until(lambda: user.importing.unfitted)
         fitted = user.contour.fitted
         assert fitted is not None
         assert (fitted.before, len(fitted.pieces) < 150, fitted.off <= 0.005) == (2000, True, True)
@@ -491,7 +491,7 @@ async def test_fit_arcs_is_advised_before_more_than_five_hundred_segments_are_ta
     async with importer(circle_of_lines(600), tmp_path) as user:
         await user.press("enter")
         await user.until(lambda: isinstance(user.app.screen, Question))
-        assert "segments: the form shows them, the look-ahead of a control may not." in user.question.lines[0]
+        assert "segments: that may be too many for the look-ahead of a control." in user.question.lines[0]
         await user.press("enter")
         await user.until(lambda: user.rows[0][3] == "1")
         await user.press("enter")

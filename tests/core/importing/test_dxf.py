@@ -103,7 +103,7 @@ def test_a_file_that_breaks_off_is_refused_with_its_last_line() -> None:
 
 def test_refusals_name_the_reason() -> None:
     for name, text in (
-        ("d20-not-dxf.dxf", "test.dxf is no DXF file."),
+        ("d20-not-dxf.dxf", "test.dxf is not a DXF file."),
         (
             "d17-empty.dxf",
             "There is no line, arc, circle, polyline, ellipse or spline in model space: 1 TEXT was skipped.",
