@@ -89,11 +89,12 @@ def commented_size(lines: Sequence[str], number: ToolId) -> CommentedSize | None
 
     The comment names the tool, or stands behind its T word.  Recognized are `TOOL 1 END MILL DIAMETER 0.5000`, as
     cutcomp posts, `T1 D=10.` and `TOOL - 1 DIA. - .5` of CAM posts, `T1 .5 DIA` and `T1 10MM ENDMILL`.  Comments with
-    several tools or sizes, or with sizes of a shank, a wear or an offset, are ignored.
+    several tools or sizes, or with sizes of a shank, a wear, an offset or a hole, are ignored, and so are numbers that
+    are a step, a depth, a stock, a length or a corner radius.
     """
     for row, line in enumerate(lines, 1):
         for comment in _COMMENT.finditer(line):
-            named = _TOOL.findall(comment[0]) or _TOOL.findall(line[: comment.start()])
+            named = _TOOL.findall(comment[0]) or _TOOL_WORD.findall(line[: comment.start()])
             size = _size_in(_TOOL.sub("", comment[0]))
             if size and [name.lstrip("0") for name in named] == [str(number)]:
                 return CommentedSize(row, size)
@@ -104,6 +105,8 @@ def _size_in(comment: str) -> str:
     """Return the only diameter in a comment without tool numbers, with its unit if it has one; empty without one."""
     if _OTHER_SIZES.search(comment):
         return ""
+    # the bar keeps what stands before such a number apart from what follows it
+    comment = _OTHER_NUMBERS.sub(" | ", comment)
     sizes = [match for pattern in _SIZES for match in pattern.finditer(comment) if _number(match[1]) > 0.0]
     units = [match[2] for match in sizes if match[2]]
     # the same size may be given twice: 10MM ENDMILL, DIA 10.
@@ -120,10 +123,31 @@ def _number(text: str) -> float:
 
 _COMMENT: Final = re.compile(r"\([^)]*\)?|;.*")
 _TOOL: Final = re.compile(r"\bT(?:OOL)?\s*(?:[-#]\s*)?(\d{1,8})\b", re.IGNORECASE)
-_OTHER_SIZES: Final = re.compile(r"\b(?:SHANK|WEAR|OFFSET|OFS)\b", re.IGNORECASE)
+_TOOL_WORD: Final = re.compile(r"(?<![A-Z])T(?:OOL CALL)?\s{0,3}(\d{1,8})(?!\d)", re.IGNORECASE)
+"""A tool in a program's own words, which need no spaces between them."""
 _NUMBER: Final = r"(?<![A-Z\d./,])(?<!\d[ -])(\d{1,3}/\d{1,3}|\d{0,8}\.\d{1,8}|\d{1,8}\.?)(?![\d/]|\.\d)"
 _UNIT: Final = r"\s?(MM\b|IN\b)?"
 _KIND: Final = r"(?:(?:FLAT|SQUARE|CARBIDE|HSS|ROUGH\w*|FINISH\w*|\d ?FL(?:UTE)?S?)\s+)*(?:END ?MILL|EM)\b"
+_FEATURE: Final = r"(?:BORE|HOLE|C\W?BORE|CIRCLE|POCKET|SLOT|BOSS)S?\b"
+_OTHER_SIZES: Final = re.compile(
+    rf"\b(?:SHANK|WEAR|OFFSET|OFS)\b|\b{_FEATURE}\s{{0,3}}[=:-]?\s{{0,3}}{_NUMBER}{_UNIT}\s{{0,3}}DIA"
+    rf"|\bDIA(?:METER)?\.?\s{{0,3}}{_FEATURE}|\b{_FEATURE}\s{{0,3}}DIA",
+    re.IGNORECASE,
+)
+_QUANTITY: Final = (
+    r"(?:STEP[ -]?(?:OVER|DOWN)|DEPTH(?:\sOF\sCUT)?|DEEP|DOC|WOC|STOCK(?:\sTO\sLEAVE)?|LEAVE|ALLOWANCE|LENGTH|LEN|LONG"
+    r"|LOC|OAL|REACH|STICK ?OUT|RAD(?:IUS)?|CR|R|(?<!\d)(?<!\d )FLUTES?)\b\.?"
+)
+_DIAMETER_WORD: Final = r"(?:\s{0,3}DIA(?:METER)?\b\.?)?"
+_NO_NUMBER: Final = r"(?!\s{0,3}[=:-]?\s{0,3}[\d.])"
+_OTHER_NUMBERS: Final = re.compile(
+    # the word before its number, or after it where no other number follows the word
+    rf"\b{_QUANTITY}\s{{0,3}}[=:-]?\s{{0,3}}{_NUMBER}{_UNIT}(?:{_DIAMETER_WORD}{_NO_NUMBER})?"
+    rf"|\b(?:FINISH\w{{0,9}}|PASS)\s{{0,3}}{_NUMBER}{_UNIT}\s{{0,3}}DIA\b(?!\.?\s{{0,3}}{_KIND})"
+    rf"|{_NUMBER}{_UNIT}{_DIAMETER_WORD}\s{{1,3}}{_QUANTITY}{_NO_NUMBER}",
+    re.IGNORECASE,
+)
+"""A number that is no diameter of the tool, with the word that says what it is."""
 _SIZES: Final = tuple(
     re.compile(pattern, re.IGNORECASE)
     for pattern in (
