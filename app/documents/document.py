@@ -164,7 +164,7 @@ class NcDocument:
         work = replace(journal.work, origin=self.text.origin)
         if self.file.stamp is not None:
             work = work.known_in(self.text)
-        row = journal.place[0] if journal.place else work.past[-1].row if work.past else 0
+        row = journal.place[0] if journal.place else work.past[-1].at if work.past else 0
         return replace(self, text=work, row=row if isinstance(row, int) else 0)
 
     def holds(self, journal: Journal) -> bool:

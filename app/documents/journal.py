@@ -25,10 +25,10 @@ from typing import Final, TypeVar
 from app.documents.files import Stamp
 from app.documents.journal_file import DamagedError, Record, valid_lines
 from app.documents.lock import Owner, owner_of
-from app.documents.nc_text import MAX_NC_BYTES, NEVER_SAVED, Change, NcText
+from app.documents.nc_text import MAX_NC_BYTES, NEVER_SAVED, NcText
 from core.program.file.read import StoreError, loads
 from core.program.file.write import dumps
-from core.program.history import History, UndoStep, splice
+from core.program.history import History, Splice, UndoStep, splice
 from core.program.model import Program
 
 JOURNAL_FORMAT: Final = 3
@@ -149,7 +149,7 @@ def _edit(before: Work, after: Work) -> Record:
         return {"do": after.undo_label, "delta": delta(before.program, after.program)}
     assert isinstance(after, NcText)
     change = after.past[-1]
-    return {"do": "", "delta": [change.row, change.removed, change.inserted]}
+    return {"do": "", "delta": [change.at, change.old, change.new]}
 
 
 def delta(old: Program, new: Program) -> Record:
@@ -241,7 +241,7 @@ def _done(work: Work, label: str, values: object) -> Work:
         return History(applied(work.program, values), past)
     match values:
         case [int(row), [*removed], [*inserted]]:
-            return work.done(Change(row, _lines_of(work, removed), _lines_of(work, inserted)))
+            return work.done(Splice(row, _lines_of(work, removed), _lines_of(work, inserted)))
         case _:
             raise DamagedError
 

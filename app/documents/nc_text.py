@@ -10,7 +10,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from typing import Final
 
-from core.program.history import splice
+from core.program.history import Splice, splice
 
 MAX_NC_BYTES: Final = 64_000_000
 """The size of the largest NC text that is opened in bytes."""
@@ -25,16 +25,7 @@ _LINE: Final = re.compile(r"[^\r\n]*(?:\r\n|\n|\r)|[^\r\n]+\Z")
 _END: Final = re.compile(r"(?:\r\n|\n|\r)\Z")
 
 
-@dataclass(frozen=True, eq=False, slots=True)
-class Change:
-    """The replacement of lines by others, from `row` on (0 is the first)."""
-
-    row: int
-    removed: tuple[str, ...]
-    inserted: tuple[str, ...]
-
-
-NEVER_SAVED: Final = Change(-1, (), ())
+NEVER_SAVED: Final[Splice[str]] = Splice(-1, (), ())
 """The `saved` change of a text none of whose states any file holds."""
 
 
@@ -45,9 +36,9 @@ class NcText:
     lines: tuple[str, ...] = ()
     encoding: str = "utf-8"
     origin: bytes = b""
-    past: tuple[Change, ...] = ()
-    future: tuple[Change, ...] = ()
-    saved: Change | None = None
+    past: tuple[Splice[str], ...] = ()
+    future: tuple[Splice[str], ...] = ()
+    saved: Splice[str] | None = None
 
     @staticmethod
     def read(data: bytes, known: str = "") -> NcText:
@@ -109,13 +100,13 @@ class NcText:
         if self.lines and self.lines[0].startswith(BYTE_ORDER_MARK):
             lines[:1] = [BYTE_ORDER_MARK + "".join(lines[:1])]
         change = splice(self.lines, tuple(lines))
-        return self._with_change(Change(change.at, change.old, change.new)) if change.old or change.new else self
+        return self._with_change(change) if change.old or change.new else self
 
     def _end_of(self, row: int) -> str:
         match = _END.search(self.lines[row])
         return match[0] if match else ""
 
-    def _with_change(self, change: Change) -> NcText:
+    def _with_change(self, change: Splice[str]) -> NcText:
         return replace(_with_lines(self, change), past=(*self.past, change), future=())
 
     def undo(self) -> NcText:
@@ -123,7 +114,7 @@ class NcText:
         if not self.past:
             return self
         change = self.past[-1]
-        back = _with_lines(self, Change(change.row, change.inserted, change.removed))
+        back = _with_lines(self, Splice(change.at, change.new, change.old))
         return replace(back, past=self.past[:-1], future=(*self.future, change))
 
     def redo(self) -> NcText:
@@ -139,13 +130,13 @@ class NcText:
         # in one list: a new tuple for each change would take seconds for thousands of them
         lines = list(self.lines)
         for change in reversed(self.past):
-            lines[change.row : change.row + len(change.inserted)] = change.removed
+            lines[change.at : change.at + len(change.new)] = change.old
         return replace(self, lines=tuple(lines), past=(), future=())
 
-    def done(self, change: Change) -> NcText:
+    def done(self, change: Splice[str]) -> NcText:
         """Return the text after one more change; raise ValueError if the lines that it removes are not there."""
-        lines = self.lines[change.row : change.row + len(change.removed)]
-        if lines != change.removed or not 0 <= change.row <= len(self):
+        lines = self.lines[change.at : change.at + len(change.old)]
+        if lines != change.old or not 0 <= change.at <= len(self):
             raise ValueError("another text")
         return self._with_change(change)
 
@@ -154,7 +145,7 @@ class NcText:
         lines, wanted = list(self.first.lines), list(file.lines)
         for change in (None, *self.past, *reversed(self.future)):
             if change is not None:
-                lines[change.row : change.row + len(change.removed)] = change.inserted
+                lines[change.at : change.at + len(change.old)] = change.new
             if lines == wanted and self.encoding == file.encoding:
                 return replace(self, saved=change)
         return self
@@ -164,6 +155,6 @@ class NcText:
         return replace(self, origin=data, saved=self.past[-1] if self.past else None)
 
 
-def _with_lines(listing: NcText, change: Change) -> NcText:
-    lines, after = listing.lines, change.row + len(change.removed)
-    return replace(listing, lines=lines[: change.row] + change.inserted + lines[after:])
+def _with_lines(listing: NcText, change: Splice[str]) -> NcText:
+    lines, after = listing.lines, change.at + len(change.old)
+    return replace(listing, lines=lines[: change.at] + change.new + lines[after:])

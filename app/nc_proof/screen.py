@@ -212,7 +212,7 @@ class ProofScreen(BaseScreen):
             self.say(f"There is nothing to {action}.")
             return
         changes = text.future if len(text.future) > len(self.document.text.future) else text.past
-        row = changes[-1].row if changes else 0
+        row = changes[-1].at if changes else 0
         self._change(text, row)
         self._show_text(row)
         self.say(done)
