@@ -106,7 +106,7 @@ class FileActions(DerivationActions):
         label = self.session.history.redo_label
         self._undo_or_redo("redo", label, self.session.redone, f"Redone: {label}.")
 
-    def _undo_or_redo(self, action: str, label: str | None, changed_session: Callable[[], Session], message: str) -> None:
+    def _undo_or_redo(self, action: str, label: str | None, changed: Callable[[], Session], message: str) -> None:
         """Undo or redo; a screen with its own document does so on that document instead."""
         if isinstance(self.screen, BaseScreen):
             if self.screen.take_over(action):
@@ -115,7 +115,7 @@ class FileActions(DerivationActions):
         if label is None:
             self.say(f"There is nothing to {action}.")
             return
-        self._change(changed_session())
+        self._change(changed())
         # a message that offers Ctrl+Z must not stay once it is pressed: pressed again, it would undo another edit
         self.clear_notifications()
         self.say(message)

@@ -97,7 +97,11 @@ class ProofScreen(BaseScreen):
     )
 
     def __init__(
-        self, document: NcDocument, check_request: CheckRequest | None = None, usual_control: str = "", remembered_tools: str = ""
+        self,
+        document: NcDocument,
+        check_request: CheckRequest | None = None,
+        usual_control: str = "",
+        remembered_tools: str = "",
     ) -> None:
         super().__init__()
         self.document = document

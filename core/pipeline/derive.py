@@ -138,7 +138,7 @@ def _with_findings(block: DerivedBlock, paths: BlockPaths, program: Program, pro
         back = turning_back(paths.surface, closed=closed)
         trouble = path_findings(paths)
         if block.side is not None:
-            if block.solved.whole:
+            if block.solved.fully_determined:
                 trouble += size_warning(block.radius, paths.surface, block.side, closed=closed)
             trouble = _with_largest_blend(trouble, paths, block.side, program, progress)
             trouble += tight_arcs(paths.verdict, paths.surface, block.side, block.radius)

@@ -260,7 +260,7 @@ def share_values(program: Program, at: int, *, only_blank: bool) -> Edited:
 
     Text that cannot be read is not copied.
     """
-    if refusal := _absent(program, FormPlace(at)):
+    if refusal := _place_refusal(program, FormPlace(at)):
         return refusal
     if len(program.blocks) == 1:
         return Refused("There is no other block.")

@@ -24,7 +24,7 @@ async def test_the_next_finding_is_found_from_the_form_itself():
         assert user.screen.query_one(FindingsList).highlighted == 2
         await user.press("pagedown", "ctrl+p")
         assert isinstance(user.screen, ContourScreen)
-        assert user.screen.in_hand is not None
+        assert user.screen.selected_finding is not None
 
 
 async def test_without_findings_the_key_says_so():

@@ -200,7 +200,7 @@ def test_the_size_of_a_contour_is_not_judged_before_every_segment_is_determined(
     tiny = ((0, 0), (0.2, 0), (0.2, 0.2))
     one = block(tiny, CutterComp.LEFT)
     (unfinished,) = derive(program(replace(one, segments=(*one.segments, LineSegment())))).blocks
-    assert not unfinished.solved.whole
+    assert not unfinished.solved.fully_determined
     assert "TOOL_LARGE" not in codes(unfinished)
 
 
