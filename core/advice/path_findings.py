@@ -208,7 +208,7 @@ def better_path_findings(best: BestPath, separation: Separation) -> tuple[Findin
         return ()
     first = separation.stretches[0]
     x, y = first.points[0].tolist()
-    text = "The best path cuts {value} more, from X {x} Y {y} on. F4 sets PATH."
+    text = "BEST runs {value} more, from X {x} Y {y} on. Set PATH with F4."
     return (Finding("BEST_DIFFERS", Severity.INFO, text, float(first.numbers[0]), None, (x, y), separation.length),)
 
 
