@@ -242,7 +242,7 @@ def test_the_additional_length_of_the_best_path_is_reported_with_its_place() -> 
     assert (difference.code, difference.severity) == ("BEST_DIFFERS", Severity.INFO)
     assert difference.value > 8.0
     assert difference.at == (0.25, -0.25)
-    assert sentence(difference, Unit.MM).startswith("The best path cuts ")
+    assert sentence(difference, Unit.MM).startswith("BEST runs ")
     assert better_path_findings(best, replace(apart, length=0.0013)) != ()
     # this would show as 0.0000 in inches
     assert better_path_findings(best, replace(apart, length=0.0012)) == ()
