@@ -31,7 +31,7 @@ async def test_a_tool_that_differs_is_named_with_both_diameters_before_it_is_rep
         await import_table(user)
         assert isinstance(user.app.screen, Question)
         lines = [str(line) for line in user.app.screen.lines]
-        assert lines[0] == "Tools: 2. New: 1. In place of one that differs: 1."
+        assert lines[0] == "Tools: 2. New: 1. Changed: 1."
         before, after = lines[1].split(" becomes ")
         assert ("0.500" in before, "0.375" in after) == (True, True), lines
         await user.press("i")
@@ -49,7 +49,7 @@ async def test_a_table_with_a_fault_changes_nothing_and_lists_line_and_column(tm
     async with operator() as user:
         known = user.session.program
         await import_table(user)
-        assert user.prompt == "Nothing was imported. Mend the lines that are listed."
+        assert user.prompt == "Nothing was imported. Correct the lines that are listed."
         assert faults(user).startswith(" line 2, column ")
         assert user.session.program is known
 
