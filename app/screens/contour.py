@@ -408,8 +408,8 @@ class ContourScreen(BlockActions, FormScreen):
         """Move the form to the highlighted row's segment; skip events for rows the cursor has already left."""
         late = event.cursor_row != event.data_table.cursor_row
         if event.data_table.has_focus and not late and event.cursor_row != self.current_session.place.segment:
-            place = FormPlace(self.current_session.place.block, event.cursor_row)
-            self.host.move(place, None)
+            self.query_one(SegmentList).program_row = event.cursor_row
+            self.host.move(FormPlace(self.current_session.place.block, event.cursor_row), None)
 
     @on(DataTable.RowSelected)
     def _segment_selected(self) -> None:

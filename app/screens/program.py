@@ -80,11 +80,12 @@ class ProgramScreen(BlockActions):
 
     def show_session(self, session: Session) -> None:
         """Show one row per block."""
-        table, marks = self.query_one("#blocks", DataTable), MARKS_OF_CHARACTERS[self.host.characters]
+        table, marks = self.query_one("#blocks", RowTable), MARKS_OF_CHARACTERS[self.host.characters]
+        cursor_row = table.cursor_row
         table.clear()
         for block in session.derived.blocks:
             table.add_row(*_row(block, marks))
-        table.move_cursor(row=session.place.block - 1)
+        table.follow(session.place.block - 1, cursor_row)
         self.query_one("#block-count", Label).update(counted(len(session.program.blocks), "block"))
         self.query_one("#program-file", Label).update(session.file_label)
         self._draw()
@@ -119,6 +120,7 @@ class ProgramScreen(BlockActions):
     def _highlighted(self) -> None:
         number = self.chosen
         if number != self.current_session.place.block and number <= len(self.current_session.program.blocks):
+            self.query_one("#blocks", RowTable).program_row = number - 1
             self.host.move(FormPlace(number))
         self._draw()
 

@@ -151,6 +151,18 @@ class RowTable(DataTable[Cell]):
         super().__init__(id=id, classes=classes, cursor_type="row", cell_padding=cell_padding)
         for heading, width in columns:
             self.add_column(heading, width=width, key=heading)
+        self.program_row = 0
+        """The row of the program's place, as it was last shown or chosen here."""
+
+    def follow(self, program_row: int, cursor_row: int) -> None:
+        """Put the cursor on the row of the program's place, if the program did not get there by this table.
+
+        Otherwise keep it on `cursor_row`: another key may have moved it there before the program has followed.
+        """
+        row = cursor_row if program_row == self.program_row else program_row
+        self.program_row = program_row
+        if self.cursor_row != row:
+            self.move_cursor(row=row)
 
     def action_scroll_home(self) -> None:
         """Go to the first row."""

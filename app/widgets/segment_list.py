@@ -69,6 +69,7 @@ class SegmentList(RowTable[Text]):
     def show(self, session: Session) -> None:
         """Show the segments of the block with the cursor; update only cells that differ."""
         rows, before = segment_rows(session.derived_block, session.program.unit), self._rows
+        cursor_row = self.cursor_row
         if len(rows) != len(before):
             self.clear()
             for row in rows:
@@ -79,8 +80,7 @@ class SegmentList(RowTable[Text]):
                     if text != old_text or (row.outcome != old.outcome and key == "type"):
                         self.update_cell(row.number, key, self._cell(row, key))
         self._rows = rows
-        if self.cursor_row != session.place.segment:
-            self.move_cursor(row=session.place.segment)
+        self.follow(session.place.segment, cursor_row)
 
     def _cell(self, row: SegmentRow, key: str) -> Text:
         text = str(getattr(row, key))

@@ -2,12 +2,15 @@
 
 from __future__ import annotations
 
-from textual.widgets import OptionList
+from dataclasses import replace
+
+from textual.widgets import DataTable, OptionList
 
 from app.screens.contour import ContourScreen
 from app.screens.lookahead import LookaheadScreen
 from app.widgets.drawing import Drawing
 from app.widgets.findings_list import FindingsList
+from app.widgets.segment_list import SegmentList
 from core.program.model import Number
 from tests.app.widget_pilot import operator
 
@@ -38,6 +41,23 @@ async def test_enter_in_the_list_of_segments_goes_to_the_first_field_of_the_segm
         await user.press("f9", "down", "down", "enter")
         assert user.session.place.segment == 2
         assert user.at == "direction", "segment 2 is an ARC"
+
+
+async def test_keys_in_a_burst_all_move_the_cursor_of_the_two_lists_that_the_program_follows():
+    """The program follows one key while the next one moves the cursor on; no key may be taken back."""
+    async with operator() as user:
+        await user.begin(replace(user.session.program, blocks=user.session.program.blocks * 6))
+        await user.press("f9")
+        for _ in range(6):
+            await user.press("home", *["down"] * 5, "up")
+            assert user.session.place.segment == 4
+            assert user.screen.query_one(SegmentList).cursor_row == 4
+        await user.app.run_action("app.program")
+        await user.settle()
+        for _ in range(6):
+            await user.press("home", *["down"] * 5, "up")
+            assert user.session.place.block == 5
+            assert user.screen.query_one("#blocks", DataTable).cursor_row == 4
 
 
 async def test_the_list_of_finish_tools_offers_no_finish_pass_first():
