@@ -7,13 +7,13 @@ from dataclasses import replace
 
 from core.importing import contours
 from core.importing.contours import ContourList, ImportOptions
-from core.importing.drawing import Drawing, DrawingError, DrawingUnit, Progress
+from core.importing.drawing import Drawing, DrawingError, DrawingUnit, StageProgress
 from core.importing.dxf import read_dxf
 from core.importing.listing import unit_question
 from core.units import from_mm, to_mm
 
 
-def list_drawing(data: bytes, options: argparse.Namespace, *, progress: Progress) -> ContourList:
+def list_drawing(data: bytes, options: argparse.Namespace, *, progress: StageProgress) -> ContourList:
     """Return the drawing and its contours; raise DrawingError UNITS or OPTION if the arguments do not fit them."""
     drawing = read_dxf(data, options.file.name, damaged=options.damaged, progress=progress)
     asked = DrawingUnit(options.units.upper()) if options.units else None

@@ -22,8 +22,7 @@ from typing import Final, Generic, TypeVar, cast
 
 from app.documents.files import TooLargeError, read_file, why
 from core.importing.contours import ContourList, ImportOptions, contours_of
-from core.importing.drawing import MAX_BYTES, Drawing, DrawingError
-from core.importing.drawing import Progress as ReportProgress
+from core.importing.drawing import MAX_BYTES, Drawing, DrawingError, StageProgress
 from core.importing.dxf import read_dxf
 from core.program.file.read import StoreError
 from core.units import Unit
@@ -120,7 +119,7 @@ class Worker(Generic[Result]):
 
 
 def read_and_list(
-    data: bytes, name: str, program: Unit | None, *, damaged: bool = False, progress: ReportProgress
+    data: bytes, name: str, program: Unit | None, *, damaged: bool = False, progress: StageProgress
 ) -> Drawing | ContourList:
     """Return a drawing's contours with the usual options for a program's unit, None for the drawing's unit.
 

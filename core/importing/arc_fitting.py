@@ -32,14 +32,14 @@ class Fitted:
 
     pieces: tuple[Piece, ...]
     before: int
-    off: float
+    deviation: float
 
 
 class _Fit(NamedTuple):
     """An arc or a line through the ends of some points, and its largest distance from their lines."""
 
     piece: Piece
-    off: float
+    deviation: float
 
 
 _Make = Callable[[Points, float], "_Fit | None"]
@@ -52,8 +52,8 @@ def fit_arcs(pieces: Sequence[Piece], fit: float, *, closed: bool) -> Fitted:
     breaks = (row for row, piece in enumerate(pieces) if not _goes_on(pieces[row - 1], piece))
     start = next(breaks, None) if closed else 0
     if start is None:
-        fitted, off = _ring(_points(pieces), fit)
-        return Fitted(tuple(fitted), len(pieces), off)
+        fitted, deviation = _ring(_points(pieces), fit)
+        return Fitted(tuple(fitted), len(pieces), deviation)
     runs: list[list[Piece]] = []
     for piece in (*pieces[start:], *pieces[:start]):
         if runs and _goes_on(runs[-1][-1], piece):
@@ -62,7 +62,7 @@ def fit_arcs(pieces: Sequence[Piece], fit: float, *, closed: bool) -> Fitted:
             runs.append([piece])
     fits = [_open_run(_points(run), fit) if isinstance(run[0], Line) else (run, 0.0) for run in runs]
     made = tuple(piece for fitted, _ in fits for piece in fitted)
-    return Fitted(made, len(pieces), max((off for _, off in fits), default=0.0))
+    return Fitted(made, len(pieces), max((deviation for _, deviation in fits), default=0.0))
 
 
 def _goes_on(before: Piece, after: Piece) -> bool:
@@ -82,7 +82,7 @@ def _ring(points: Points, fit: float) -> tuple[list[Piece], float]:
     """Fit a smooth ring: one circle if that will do, else from the first break of a fit that starts anywhere."""
     circle = _circle(points[:-1], fit)
     if circle is not None:
-        return [circle.piece], circle.off
+        return [circle.piece], circle.deviation
     pieces, _ = _open_run(points, fit)
     at = int(np.argmin(np.abs(points[:-1] - complex(*pieces[0].end))))
     turned = np.concatenate((points[at:-1], points[: at + 1]))
@@ -103,13 +103,13 @@ def _circle(points: Points, fit: float) -> _Fit | None:
     away = np.abs(local - center)
     radius = float((away.max() + away.min()) / 2.0)
     ends = np.concatenate((points[1:], points[:1]))
-    off = max(float(np.abs(away - radius).max()), _sagitta(points, ends, middle + center, radius))
+    deviation = max(float(np.abs(away - radius).max()), _sagitta(points, ends, middle + center, radius))
     turned = np.angle((np.roll(local, -1) - center) * (local - center).conj())
-    if off > fit or radius > MAX_RADIUS or abs(abs(turned.sum()) - tau) > 1e-6 or not _turns_one_way(turned):
+    if deviation > fit or radius > MAX_RADIUS or abs(abs(turned.sum()) - tau) > 1e-6 or not _turns_one_way(turned):
         return None
     at = middle + center
     begin = point_of(at + radius)
-    return _Fit(Arc(begin, begin, point_of(at), Turn.CCW if turned.sum() > 0.0 else Turn.CW), off)
+    return _Fit(Arc(begin, begin, point_of(at), Turn.CCW if turned.sum() > 0.0 else Turn.CW), deviation)
 
 
 def _turns_one_way(turned: Floats) -> bool:
@@ -124,9 +124,9 @@ def _sagitta(starts: Points, ends: Points, center: complex, radius: float) -> fl
 
 
 def _open_run(points: Points, fit: float) -> tuple[list[Piece], float]:
-    """Return the longest arcs and lines from the first point to the last, and how far they are off."""
+    """Return the longest arcs and lines from the first point to the last, and their largest deviation."""
     pieces: list[Piece] = []
-    off, at, last = 0.0, 0, len(points) - 1
+    deviation, at, last = 0.0, 0, len(points) - 1
     while at < last:
         best, reach = _Fit(Line(point_of(points[at]), point_of(points[at + 1])), 0.0), at + 1
         for make in (_straight, _bent):
@@ -134,9 +134,9 @@ def _open_run(points: Points, fit: float) -> tuple[list[Piece], float]:
             if made is not None and end > reach:
                 best, reach = made, end
         pieces.append(best.piece)
-        off = max(off, best.off)
+        deviation = max(deviation, best.deviation)
         at = reach
-    return pieces, off
+    return pieces, deviation
 
 
 def _longest(points: Points, at: int, fit: float, make: _Make) -> tuple[_Fit | None, int]:
@@ -166,10 +166,10 @@ def _straight(points: Points, fit: float) -> _Fit | None:
     if abs(chord) == 0.0:
         return None
     local = (points - points[0]) * (chord.conjugate() / abs(chord))
-    off = float(np.abs(local.imag).max())
-    if off > fit or (np.diff(local.real) <= 0.0).any():
+    deviation = float(np.abs(local.imag).max())
+    if deviation > fit or (np.diff(local.real) <= 0.0).any():
         return None
-    return _Fit(Line(point_of(points[0]), point_of(points[-1])), off)
+    return _Fit(Line(point_of(points[0]), point_of(points[-1])), deviation)
 
 
 def _bent(points: Points, fit: float) -> _Fit | None:
@@ -192,25 +192,25 @@ def _bent(points: Points, fit: float) -> _Fit | None:
     low, high = 0.0, max(2.0 * float(local.imag.max()), 1e-9)
     for _ in range(MAX_NARROWING_STEPS):
         first, second = low + (high - low) / 3.0, high - (high - low) / 3.0
-        if _off_arc(local, size, first) <= _off_arc(local, size, second):
+        if _deviation_from_arc(local, size, first) <= _deviation_from_arc(local, size, second):
             high = second
         else:
             low = first
         if high - low <= fit * 1e-3:
             break
     height = (low + high) / 2.0
-    off = _off_arc(local, size, height)
+    deviation = _deviation_from_arc(local, size, height)
     radius = (size * size / 4.0 + height * height) / (2.0 * height)
-    if off > fit or radius > MAX_RADIUS:
+    if deviation > fit or radius > MAX_RADIUS:
         return None
     below = height - radius
     center = (complex(0.0, -below if turn > 0.0 else below) + size / 2.0) * (chord / size) + points[0]
-    return _Fit(Arc(point_of(points[0]), point_of(points[-1]), point_of(center), Turn(int(turn))), off)
+    return _Fit(Arc(point_of(points[0]), point_of(points[-1]), point_of(center), Turn(int(turn))), deviation)
 
 
-def _off_arc(local: Points, size: float, height: float) -> float:
+def _deviation_from_arc(local: Points, size: float, height: float) -> float:
     """Return how far points and their lines are from the arc of this height, above 0, over its chord."""
     radius = (size * size / 4.0 + height * height) / (2.0 * height)
     center = complex(0.0, height - radius)
-    off = float(np.abs(np.abs(local - center) - radius).max())
-    return max(off, _sagitta(local[:-1], local[1:], center, radius))
+    deviation = float(np.abs(np.abs(local - center) - radius).max())
+    return max(deviation, _sagitta(local[:-1], local[1:], center, radius))

@@ -43,7 +43,7 @@ class Cleaned:
     """The pieces that stay, and how many were too short, equal to others, or joined with those they overlap.
 
     `closed` holds the pieces of each closed entity, or cell, that meets another one: these are chained alone.  `shared`
-    counts the edges of cells that are drawn twice.  `off` is how far a duplicate differs at most, and where.
+    counts the edges of cells that are drawn twice.  `largest_difference` is the largest of a duplicate, and its place.
     """
 
     pieces: list[LayeredPiece] = field(default_factory=list)
@@ -52,10 +52,10 @@ class Cleaned:
     duplicates: int = 0
     overlaps: int = 0
     shared: int = 0
-    off: tuple[float, Point] = (0.0, (0.0, 0.0))
+    largest_difference: tuple[float, Point] = (0.0, (0.0, 0.0))
 
 
-_Beyond = tuple[tuple[int, ...], tuple[int, ...]]
+_Continuations = tuple[tuple[int, ...], tuple[int, ...]]
 """The rows of the pieces that continue at a piece's start and at its end."""
 
 
@@ -140,7 +140,9 @@ def _without_duplicates(items: list[LayeredPiece], tolerance: float, cleaned: Cl
     differences = (
         (_difference(items[rows[0]].piece, items[row].piece), items[row].piece) for rows in copies for row in rows[1:]
     )
-    cleaned.off = max(((off, _middle(piece)) for off, piece in differences), default=cleaned.off)
+    cleaned.largest_difference = max(
+        ((off, _middle(piece)) for off, piece in differences), default=cleaned.largest_difference
+    )
     shared = {items[row].entity for rows in copies for row in rows if len(rows) > 1} - {0}
     edges: defaultdict[int, dict[int, int]] = defaultdict(dict)
     for number, rows in enumerate(copies):
@@ -148,21 +150,23 @@ def _without_duplicates(items: list[LayeredPiece], tolerance: float, cleaned: Cl
             if items[row].entity in shared:
                 edges[items[row].entity].setdefault(number, row)
     # an entity with the same edges as one before it is a copy
-    whole = {frozenset(edge_rows): edge_rows for edge_rows in reversed(edges.values()) if len(edge_rows) > 1}
-    closed = {key: rows for key, rows in whole.items() if _is_closed([items[row] for row in rows.values()], tolerance)}
+    complete = {frozenset(edge_rows): edge_rows for edge_rows in reversed(edges.values()) if len(edge_rows) > 1}
+    closed = {
+        key: rows for key, rows in complete.items() if _is_closed([items[row] for row in rows.values()], tolerance)
+    }
     owners = {entity for entity, edge_rows in edges.items() if frozenset(edge_rows) in closed}
-    taken = frozenset[int]().union(*closed)
+    taken_edges = frozenset[int]().union(*closed)
     free = [[row for row in rows if items[row].entity not in owners] for rows in copies]
-    cells, sides = _cells(free, taken, _faces(items, free, taken, tolerance))
+    cells, sides = _cells(free, taken_edges, _faces(items, free, taken_edges, tolerance))
     used = Counter(number for cell in cells for number in cell)
-    cleaned.shared = sum(sides[number] > 1 or number in taken for number in used)
+    cleaned.shared = sum(sides[number] > 1 or number in taken_edges for number in used)
     kept = [items[row] for rows in closed.values() for row in rows.values()]
     # a cell is no entity of the drawing: its number is below 0
     kept += [items[free[number].pop()]._replace(entity=-row) for row, cell in enumerate(cells, 1) for number in cell]
     kept += [
         items[rows[0]]
         for number, rows in enumerate(free)
-        if rows and number not in taken and used[number] < max(sides[number], 1)
+        if rows and number not in taken_edges and used[number] < max(sides[number], 1)
     ]
     return sorted(kept, key=_key)
 
@@ -298,16 +302,16 @@ def _joined_once(items: list[LayeredPiece], tolerance: float, slack: float) -> l
     items = items.copy()
     open_rows = [row for row, item in enumerate(items) if not is_circle(item.piece)]
     nodes = nodes_of([items[row].piece for row in open_rows], tolerance)
-    beyond: dict[int, _Beyond] = {}
+    continuing: dict[int, _Continuations] = {}
     for at, row in enumerate(open_rows):
         start, end = (
             tuple(open_rows[other] for other in nodes.pieces[node] if other != at) for node in nodes.of_piece[at]
         )
-        beyond[row] = start, end
-    joiner = _Joiner(items, beyond, slack)
+        continuing[row] = start, end
+    joiner = _Joiner(items, continuing, slack)
     for first, second in _candidates(items, slack):
         joiner.join(first, second)
-    return [item for row, item in enumerate(items) if row not in joiner.into]
+    return [item for row, item in enumerate(items) if row not in joiner.joined_into]
 
 
 def _candidates(items: Sequence[LayeredPiece], slack: float) -> Iterator[tuple[int, int]]:
@@ -359,15 +363,15 @@ def _near_lines(items: Sequence[LayeredPiece], rows: list[int], slack: float) ->
 
 @dataclass(slots=True)
 class _Joiner:
-    """Joins overlapping pieces two at a time; `into` maps a row to the row it was joined into.
+    """Joins overlapping pieces two at a time; `joined_into` maps a row to the row it was joined into.
 
-    `beyond` holds the rows that continue at the start and at the end of each piece; an end without any is loose.
+    `continuing` holds the rows that continue at the start and at the end of each piece; an end without any is loose.
     """
 
     items: list[LayeredPiece]
-    beyond: dict[int, _Beyond]
+    continuing: dict[int, _Continuations]
     slack: float
-    into: dict[int, int] = field(default_factory=dict)
+    joined_into: dict[int, int] = field(default_factory=dict)
 
     def join(self, first: int, second: int) -> None:
         """Replace the first of two pieces by their union, if they overlap and an end is loose.
@@ -376,8 +380,8 @@ class _Joiner:
         is a piece that the other of the two overlaps as well: it is joined with them next.
         """
         first, second = self._row(first), self._row(second)
-        both = self.beyond.get(first, ((), ())), self.beyond.get(second, ((), ()))
-        circles = first not in self.beyond, second not in self.beyond
+        both = self.continuing.get(first, ((), ())), self.continuing.get(second, ((), ()))
+        circles = first not in self.continuing, second not in self.continuing
         if first == second or all(is_circle or all(ends) for is_circle, ends in zip(circles, both, strict=True)):
             return
         union = _union(self.items[first].piece, self.items[second].piece, self.slack)
@@ -391,15 +395,15 @@ class _Joiner:
                 _union(self.items[neighbor].piece, other, self.slack) is None for neighbor in continuing
             ):
                 return
-        self.into[second] = first
+        self.joined_into[second] = first
         (start_of, start), (end_of, end) = union.start, union.end
         longer = second if start_of == end_of == 1 else first
         self.items[first] = self.items[longer]._replace(piece=union.piece)
-        self.beyond[first] = both[start_of][start], both[end_of][end]
+        self.continuing[first] = both[start_of][start], both[end_of][end]
 
     def _row(self, row: int) -> int:
-        while row in self.into:
-            row = self.into[row]
+        while row in self.joined_into:
+            row = self.joined_into[row]
         return row
 
 
@@ -439,7 +443,7 @@ def _line_union(first: Line, second: Line, slack: float) -> _Directed | None:
     (begin, _), (end, _) = local
     after = _directed(1 - number, shorter, back=begin > end)
     interval = min(begin, end), max(begin, end)
-    return _both(_directed(number, longer, back=False), longer.length, after, interval, slack)
+    return _united(_directed(number, longer, back=False), longer.length, after, interval, slack)
 
 
 def _arc_union(first: Arc, second: Arc, slack: float) -> _Directed | None:
@@ -455,14 +459,14 @@ def _arc_union(first: Arc, second: Arc, slack: float) -> _Directed | None:
     if tau - begin <= sweeps[1] - reach:
         begin -= tau
     end = begin + sweeps[1]
-    union = _both(base, sweeps[0], after, (begin, end), reach)
+    union = _united(base, sweeps[0], after, (begin, end), reach)
     if union is not None and max(sweeps[0], end) - min(0.0, begin) >= tau - reach:
-        whole = Arc(base.piece.start, base.piece.start, first.center, Turn.CCW)
-        return _Directed(whole, (0, 0), (0, 1))
+        circle = Arc(base.piece.start, base.piece.start, first.center, Turn.CCW)
+        return _Directed(circle, (0, 0), (0, 1))
     return union
 
 
-def _both(
+def _united(
     base: _Directed, size: float, after: _Directed, interval: tuple[float, float], slack: float
 ) -> _Directed | None:
     """Return two pieces as one, measured along the first, which has this size; the second covers the interval."""

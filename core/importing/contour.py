@@ -210,8 +210,7 @@ def fit_sentence(contour: Contour, unit: Unit) -> str:
     arcs = sum(isinstance(piece, Arc) for piece in fitted.pieces)
     lines = len(fitted.pieces) - arcs
     parts = [f"{count} {name}{'S' if count > 1 else ''}" for count, name in ((arcs, "ARC"), (lines, "LINE")) if count]
-    off = length_text(fitted.off, unit)
-    return f"{fitted.before} lines -> {' and '.join(parts)}, off by {off}"
+    return f"{fitted.before} lines -> {' and '.join(parts)}, off by {length_text(fitted.deviation, unit)}"
 
 
 def joined_open(first: Contour, second: Contour, tolerance: float) -> Contour | None:

@@ -17,7 +17,16 @@ from core.geometry.piece import Line, Piece, Point, Turn
 from core.importing.clean_up import Cleaned, LayeredPiece, clean_up
 from core.importing.contour import Contour, ContourKind, joined_open, reversed_contour, rounded, started_at_usual_place
 from core.importing.curves import moved_piece, pieces_of_ellipse, pieces_of_spline
-from core.importing.drawing import BSpline, Drawing, DrawingError, DrawingUnit, Drawn, EllipseArc, Progress, silent
+from core.importing.drawing import (
+    BSpline,
+    Drawing,
+    DrawingError,
+    DrawingUnit,
+    EllipseArc,
+    LayeredShape,
+    StageProgress,
+    no_stage_progress,
+)
 from core.importing.joints import joined_chain, reversed_pieces
 from core.importing.loops import Chain, chained
 from core.importing.nesting import box_of, boxes_of, containers, crosses_itself, crossings
@@ -70,7 +79,7 @@ class Branch:
     """A point where more than two ends meet, and the numbers of the open contours that end there."""
 
     at: Point
-    ways: int
+    end_count: int
     contours: tuple[int, ...] = ()
 
 
@@ -95,12 +104,12 @@ class ContourList:
         return self.options.program_unit
 
 
-def contours_of(drawing: Drawing, options: ImportOptions, progress: Progress = silent) -> ContourList:
+def contours_of(drawing: Drawing, options: ImportOptions, progress: StageProgress = no_stage_progress) -> ContourList:
     """Return the contours of a drawing; DrawingError NOT_FLAT if a chosen layer has an entity outside the plane."""
     for entity in drawing.not_flat:
         if options.layers is None or entity.layer in options.layers:
             raise DrawingError("NOT_FLAT", entity.text)
-    shapes = [drawn for drawn in drawing.shapes if options.layers is None or drawn.layer in options.layers]
+    shapes = [layered for layered in drawing.shapes if options.layers is None or layered.layer in options.layers]
     pieces = _pieces(shapes, options, progress)
     notes = list(drawing.notes)
     left, bottom, right, top = box_of([item.piece for item in pieces]) if pieces else (0.0, 0.0, 0.0, 0.0)
@@ -129,18 +138,18 @@ def contours_of(drawing: Drawing, options: ImportOptions, progress: Progress = s
     )
 
 
-def _pieces(shapes: Sequence[Drawn], options: ImportOptions, progress: Progress) -> list[LayeredPiece]:
+def _pieces(shapes: Sequence[LayeredShape], options: ImportOptions, progress: StageProgress) -> list[LayeredPiece]:
     """Return the shapes as pieces in millimeters, with curves as arcs."""
     scale, pieces = options.unit.mm, list[LayeredPiece]()
-    for number, drawn in enumerate(shapes):
+    for number, layered in enumerate(shapes):
         if number % 100 == 0:
             progress("fitting", number, len(shapes))
-        pieces += [LayeredPiece(piece, drawn.layer, drawn.entity) for piece in _scaled(drawn, scale, options.fit)]
+        pieces += [LayeredPiece(piece, layered.layer, layered.entity) for piece in _scaled(layered, scale, options.fit)]
     return pieces
 
 
-def _scaled(drawn: Drawn, scale: float, fit: float) -> Sequence[Piece]:
-    match drawn.shape:
+def _scaled(layered: LayeredShape, scale: float, fit: float) -> Sequence[Piece]:
+    match layered.shape:
         case Line(start, end):
             return (Line(_times(start, scale), _times(end, scale)),)
         case EllipseArc(center, first, second, begin, end):
@@ -184,11 +193,13 @@ def with_joined(listed: ContourList, first: int, second: int) -> ContourList | N
     joined = joined_open(pair[0], pair[1], BRANCH_REACH * max(tolerance, SAME_POINT))
     if joined is None:
         return None
-    rest = [contour for contour in listed.contours if contour not in pair]
+    others = [contour for contour in listed.contours if contour not in pair]
     # without the values that depend on the rest of the list
-    made = [replace(each, problems=(), open_gap=None, open_gap_to=0) for each in (*rest, replace(joined, number=0))]
-    contours = _with_open_gaps(_nested(made), unit, tolerance)
-    nodes = [(branch.at, branch.ways) for branch in listed.branches]
+    unlisted = [
+        replace(each, problems=(), open_gap=None, open_gap_to=0) for each in (*others, replace(joined, number=0))
+    ]
+    contours = _with_open_gaps(_nested(unlisted), unit, tolerance)
+    nodes = [(branch.at, branch.end_count) for branch in listed.branches]
     return replace(listed, contours=tuple(contours), branches=_branches(nodes, contours, tolerance))
 
 
@@ -237,8 +248,8 @@ def _nested(contours: Sequence[Contour]) -> list[Contour]:
         contour = replace(closed[row], kind=kind, depth=depth)
         if not contour.number or kind is not closed[row].kind:
             # for climb milling with the tool on the left
-            wanted = Turn.CCW if kind is ContourKind.HOLE else Turn.CW
-            contour = started_at_usual_place(contour if contour.turn is wanted else reversed_contour(contour))
+            travel = Turn.CCW if kind is ContourKind.HOLE else Turn.CW
+            contour = started_at_usual_place(contour if contour.turn is travel else reversed_contour(contour))
         problems = [f"touches or crosses chain {numbers[crossed[row]]}"] if row in crossed else []
         if len(closed) <= MAX_CROSSING_CHECK and crosses_itself(contour.pieces):
             problems.append("touches or crosses itself")
@@ -313,11 +324,13 @@ def _branches(nodes: Sequence[tuple[Point, int]], contours: Sequence[Contour], t
     """Return the branches, each with the open contours that end there."""
     ends = _open_ends(contours)
     if not ends or not nodes:
-        return tuple(Branch(at, ways) for at, ways in nodes)
+        return tuple(Branch(at, end_count) for at, end_count in nodes)
     tree = shapely.STRtree([shapely.Point(end) for end, _ in ends])
     points = [shapely.Point(at) for at, _ in nodes]
     numbers: dict[int, list[int]] = {}
     reach = BRANCH_REACH * max(tolerance, SAME_POINT)
     for branch, end in tree.query(points, predicate="dwithin", distance=reach).T.tolist():
         numbers.setdefault(branch, []).append(contours[ends[end][1]].number)
-    return tuple(Branch(at, ways, tuple(sorted(numbers.get(row, ())))) for row, (at, ways) in enumerate(nodes))
+    return tuple(
+        Branch(at, end_count, tuple(sorted(numbers.get(row, ())))) for row, (at, end_count) in enumerate(nodes)
+    )

@@ -182,8 +182,8 @@ def _circle(shape: EllipseArc) -> Arc:
     start, end = _EllipseCurve(shape).at(np.array([shape.begin, shape.end]))[0].tolist()
     center = (shape.center.real, shape.center.imag)
     first = (start.real, start.imag)
-    whole = shape.end - shape.begin >= tau * (1.0 - MAX_CIRCLE_DIFFERENCE)
-    return Arc(first, first if whole else (end.real, end.imag), center, turn)
+    full_turn = shape.end - shape.begin >= tau * (1.0 - MAX_CIRCLE_DIFFERENCE)
+    return Arc(first, first if full_turn else (end.real, end.imag), center, turn)
 
 
 def _flattened(shape: EllipseArc) -> list[Piece]:
@@ -225,10 +225,10 @@ def ends_of_spline(shape: BSpline) -> tuple[complex, complex]:
 def _fitted(curve: _SplineCurve, fit: float) -> list[Piece]:
     """Return a smooth curve as arcs and lines: split at its curvature extremes or not, whichever needs fewer."""
     end = float(curve.control.shape[1])
-    stations = _extremes(curve, 0.0, end)
+    stations = _curvature_extremes(curve, 0.0, end)
     divided = [_stops(curve, here, there, fit * MAX_ERROR_SHARE) for here, there in pairwise(stations) if there > here]
-    whole = [_stops(curve, 0.0, end, fit * MAX_ERROR_SHARE)] if len(divided) > 1 else divided
-    chosen = min((divided, whole), key=lambda runs: sum(len(run) - 1 for run in runs))
+    undivided = [_stops(curve, 0.0, end, fit * MAX_ERROR_SHARE)] if len(divided) > 1 else divided
+    chosen = min((divided, undivided), key=lambda runs: sum(len(run) - 1 for run in runs))
     balanced = [_balanced(curve, run, fit * MAX_ERROR_SHARE) for run in chosen]
     return _biarcs(curve, [0.0, *(stop for run in balanced for stop in run[1:])], fit)
 
@@ -240,8 +240,8 @@ def _bezier_curve(shape: BSpline) -> _SplineCurve:
     spans = [k for k in range(degree, len(shape.points)) if knots[k + 1] - knots[k] > 1e-12 * size]
     weights = shape.weights / shape.weights[0]
     rows = np.column_stack((shape.points * weights, weights)).astype(np.complex128)
-    made = np.array([[_blossom(rows, knots, degree, k, j) for k in spans] for j in range(degree + 1)])
-    return _SplineCurve(made[..., 0], None if np.all(weights == 1.0) else made[..., 1].real)
+    coefficients = np.array([[_blossom(rows, knots, degree, k, j) for k in spans] for j in range(degree + 1)])
+    return _SplineCurve(coefficients[..., 0], None if np.all(weights == 1.0) else coefficients[..., 1].real)
 
 
 def _blossom(rows: Points, knots: Floats, degree: int, k: int, j: int) -> Points:
@@ -280,7 +280,7 @@ def _is_smooth(curve: _SplineCurve, span: int) -> bool:
     return abs(atan2(turned.imag, turned.real)) <= MIN_CORNER_ANGLE and abs(turned) > 0.0
 
 
-def _extremes(curve: Curve, first: float, last: float) -> list[float]:
+def _curvature_extremes(curve: Curve, first: float, last: float) -> list[float]:
     """Return the ends of a stretch and, between them, where its curvature is extreme or changes sign."""
     at = np.linspace(first, last, max(int(last - first) * SAMPLES_PER_SPAN, SAMPLES_PER_SPAN) + 1)
     _, tangents = curve.at(at)
@@ -372,12 +372,12 @@ def _stops(curve: Curve, begin: float, end: float, fit: float) -> list[float]:
     stops, step = [begin], end - begin
     while stops[-1] < end:
         here = stops[-1]
-        step = _longest(curve, here, min(step, end - here), end - here, fit)
+        step = _longest_step(curve, here, min(step, end - here), end - here, fit)
         stops.append(end if here + step >= end - 1e-12 * abs(end - begin) else here + step)
     return stops
 
 
-def _longest(curve: Curve, here: float, step: float, most: float, fit: float) -> float:
+def _longest_step(curve: Curve, here: float, step: float, largest_step: float, fit: float) -> float:
     """Return the longest step within FIT, to `LONGEST_ERROR_SHARE` of FIT.
 
     A biarc's error grows with the cube of its length.
@@ -387,14 +387,14 @@ def _longest(curve: Curve, here: float, step: float, most: float, fit: float) ->
         error = _biarc_between(curve, here, here + step)[1]
         if error <= fit:
             low = step
-            if step >= most or error >= LONGEST_ERROR_SHARE * fit:
+            if step >= largest_step or error >= LONGEST_ERROR_SHARE * fit:
                 break
         else:
             high = step
         guess = step * (0.97 * fit / error) ** (1 / 3) if 0.0 < error < float("inf") else 2.0 * step
         if high and not low < guess < high:
             guess = (low + high) / 2.0
-        step = min(max(guess, step / 4.0), 4.0 * step, most)
+        step = min(max(guess, step / 4.0), 4.0 * step, largest_step)
         if high and high - low <= 1e-3 * high and low:
             break
     return low or high
@@ -409,14 +409,14 @@ def _biarc_between(curve: Curve, first: float, last: float) -> tuple[list[Piece]
         return [_line(start, end)], float(np.abs(points - start).max())
     if np.abs(np.arctan2(turned.imag, turned.real)).sum() > MAX_BEND and last - first > 1e-9:
         return [], float("inf")
-    if _off_chord(points) <= MAX_LINE_DEVIATION:
+    if _deviation_from_chord(points) <= MAX_LINE_DEVIATION:
         return [_line(start, end)], 0.0
     t1, t2 = complex(tangents[0]), complex(tangents[-1])
     pieces = biarc(start, end, t1 / abs(t1), t2 / abs(t2))
     return pieces, _deviation(points, pieces)
 
 
-def _off_chord(points: Points) -> float:
+def _deviation_from_chord(points: Points) -> float:
     """Return how far points deviate from the line between the first and the last of them."""
     chord = complex(points[-1] - points[0])
     size = abs(chord)
@@ -462,15 +462,15 @@ def _line(start: complex, end: complex) -> Line:
 
 def _deviation(points: Points, pieces: list[Piece]) -> float:
     """Return how far points are from one or two tangent pieces along them; each belongs to the piece next to it."""
-    off = _off_carrier(points, pieces[0])
+    distances = _distances_from_carrier(points, pieces[0])
     if len(pieces) == 2:
         joint, along = complex(*pieces[0].end), complex(*pieces[0].direction_at(pieces[0].end))
         beyond = ((points - joint) * along.conjugate()).real > 0.0
-        off = np.where(beyond, _off_carrier(points, pieces[1]), off)
-    return float(off.max())
+        distances = np.where(beyond, _distances_from_carrier(points, pieces[1]), distances)
+    return float(distances.max())
 
 
-def _off_carrier(points: Points, piece: Piece) -> Floats:
+def _distances_from_carrier(points: Points, piece: Piece) -> Floats:
     """Return the distances of points from the circle or line that carries a piece."""
     if isinstance(piece, Arc):
         return np.abs(np.abs(points - complex(*piece.center)) - piece.radius)
@@ -498,15 +498,15 @@ def _merged(pieces: list[Piece]) -> list[Piece]:
 def _joined_pair(first: Piece, second: Piece) -> Piece | None:
     if isinstance(first, Line) and isinstance(second, Line):
         points = np.array([complex(*first.start), complex(*first.end), complex(*second.end)])
-        return Line(first.start, second.end) if _off_chord(points) <= MAX_LINE_DEVIATION else None
+        return Line(first.start, second.end) if _deviation_from_chord(points) <= MAX_LINE_DEVIATION else None
     if not (isinstance(first, Arc) and isinstance(second, Arc)) or first.turn is not second.turn:
         return None
-    apart = hypot(first.center[0] - second.center[0], first.center[1] - second.center[1])
+    center_distance = hypot(first.center[0] - second.center[0], first.center[1] - second.center[1])
     slack = SAME_ARC * max(1.0, first.radius)
-    if apart > slack or abs(first.radius - second.radius) > slack or first.start == first.end:
+    if center_distance > slack or abs(first.radius - second.radius) > slack or first.start == first.end:
         return None
-    whole = abs(first.sweep) + abs(second.sweep)
-    if whole > tau + 1e-6:
+    total_sweep = abs(first.sweep) + abs(second.sweep)
+    if total_sweep > tau + 1e-6:
         return None
-    end = first.start if whole > tau - 1e-6 else second.end
+    end = first.start if total_sweep > tau - 1e-6 else second.end
     return Arc(first.start, end, first.center, first.turn)

@@ -19,11 +19,11 @@ MAX_INSERT_DEPTH: Final = 8
 MAX_SHAPES: Final = 1_000_000
 
 
-Progress = Callable[[str, int, int], None]
+StageProgress = Callable[[str, int, int], None]
 """Called with the stage, the amount of it that is done, and its total."""
 
 
-def silent(_stage: str, _done: int, _whole: int) -> None:
+def no_stage_progress(_stage: str, _done: int, _whole: int) -> None:
     """Report no progress."""
 
 
@@ -106,7 +106,7 @@ class BSpline:
 Shape = Line | EllipseArc | BSpline
 
 
-class Drawn(NamedTuple):
+class LayeredShape(NamedTuple):
     """A shape with its layer and the number of its entity, counted from 1 once for each insertion; 0 if not known."""
 
     shape: Shape
@@ -132,7 +132,7 @@ class Drawing:
     """
 
     unit: DrawingUnit | None
-    shapes: tuple[Drawn, ...]
+    shapes: tuple[LayeredShape, ...]
     skipped: Mapping[str, int] = field(default_factory=dict)
     hidden: Mapping[str, int] = field(default_factory=dict)
     not_flat: tuple[NotFlat, ...] = ()

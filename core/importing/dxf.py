@@ -25,13 +25,13 @@ from core.importing.drawing import (
     BSpline,
     Drawing,
     DrawingError,
-    Drawn,
     EllipseArc,
+    LayeredShape,
     NotFlat,
-    Progress,
     Shape,
+    StageProgress,
     counted,
-    silent,
+    no_stage_progress,
 )
 from core.importing.dxf_document import Scan, ScannedEntity, damaged_file, document_of, is_dxf, too_much, words_of
 from core.tolerance import LARGEST_COORDINATE
@@ -62,7 +62,7 @@ STEPS_OF_PROGRESS: Final = 100
 """Entities between two calls of the progress callback."""
 
 
-def read_dxf(data: bytes, name: str, *, damaged: bool = False, progress: Progress = silent) -> Drawing:
+def read_dxf(data: bytes, name: str, *, damaged: bool = False, progress: StageProgress = no_stage_progress) -> Drawing:
     """Return the drawing in a DXF file's bytes; `name` is the file's name in messages.
 
     With `damaged`, what can be read of a damaged file is taken.  Raises DrawingError.
@@ -114,14 +114,14 @@ class _Reader:
     """Walks through model space; follows INSERTs with their transformation."""
 
     document: Document
-    progress: Progress
+    progress: StageProgress
     damaged: bool
-    shapes: list[Drawn] = field(default_factory=list)
+    shapes: list[LayeredShape] = field(default_factory=list)
     skipped: Counter[str] = field(default_factory=Counter)
     hidden: Counter[str] = field(default_factory=Counter)
     not_flat: list[NotFlat] = field(default_factory=list)
     notes: Counter[str] = field(default_factory=Counter)
-    taken: int = 0
+    entity_count: int = 0
     heights: list[float] = field(default_factory=list)
     lines: dict[int, ScannedEntity] = field(default_factory=dict)
     layers: dict[str, tuple[bool, bool]] = field(default_factory=dict)
@@ -182,7 +182,7 @@ class _Reader:
             dict(self.hidden),
             tuple(self.not_flat),
             tuple(notes),
-            self.taken,
+            self.entity_count,
             other,
         )
 
@@ -230,8 +230,8 @@ class _Reader:
         if abs(largest) > LARGEST_COORDINATE:
             self._too_far(entity, largest)
             return
-        self.taken += 1
-        self.shapes += [Drawn(shape, layer, self.taken) for shape in shapes]
+        self.entity_count += 1
+        self.shapes += [LayeredShape(shape, layer, self.entity_count) for shape in shapes]
 
     def _unreadable(self, entity: DXFGraphic, why: str) -> None:
         text = f"The {entity.dxftype()} {self._where(entity)} cannot be read: {why}"
@@ -240,7 +240,7 @@ class _Reader:
         self.notes[f"{text}."] += 1
 
     def _too_far(self, entity: DXFGraphic, number: float) -> None:
-        far = f"{_plain(number)}, larger than {_plain(LARGEST_COORDINATE)}"
+        far = f"{_grouped_digits(number)}, larger than {_grouped_digits(LARGEST_COORDINATE)}"
         text = f"The {entity.dxftype()} {self._where(entity)} has {far}"
         if not self.damaged:
             limit = "the largest coordinate that can be read. Move or scale it in the drawing"
@@ -311,7 +311,7 @@ class _Reader:
         arc = entity.dxftype() == "ARC"
         begin = radians(dxf.start_angle) if arc else 0.0
         end = radians(dxf.end_angle) if arc else tau
-        yield self._round(entity.ocs(), dxf.center, radius, _turned(begin, end), matrix)
+        yield self._round(entity.ocs(), dxf.center, radius, _counterclockwise_turn(begin, end), matrix)
 
     def _round(
         self, ocs: OCS, center: Vec3, radius: float, angles: tuple[float, float], matrix: Matrix44 | None
@@ -335,7 +335,7 @@ class _Reader:
     def ellipse(self, entity: Ellipse, matrix: Matrix44 | None) -> Iterator[Shape]:
         """Yield an ELLIPSE; its parameters count from its major axis."""
         tool = entity.construction_tool()
-        angles = _turned(float(entity.dxf.start_param), float(entity.dxf.end_param))
+        angles = _counterclockwise_turn(float(entity.dxf.start_param), float(entity.dxf.end_param))
         yield self._ellipse(tool.center, tool.major_axis, tool.minor_axis, angles, matrix)
 
     def lwpolyline(self, entity: LWPolyline, matrix: Matrix44 | None) -> Iterator[Shape]:
@@ -387,7 +387,7 @@ class _Reader:
             if not _is_straight(dist((x, y), (x_end, y_end)), bulge):
                 center, begin, end, radius = bulge_to_arc((x, y), (x_end, y_end), bulge)
                 middle = Vec3(center.x, center.y, height)
-                yield self._round(ocs, middle, radius, _turned(begin, end), matrix)
+                yield self._round(ocs, middle, radius, _counterclockwise_turn(begin, end), matrix)
             else:
                 points = (ocs.to_wcs(Vec3(x, y, height)), ocs.to_wcs(Vec3(x_end, y_end, height)))
                 yield self._straight(*(_moved(point, matrix) for point in points))
@@ -449,7 +449,7 @@ def _is_straight(chord: float, bulge: float) -> bool:
     return abs(bulge) * chord / 2.0 <= min(chord * chord / (4.0 * LARGEST_COORDINATE), LARGEST_SAGITTA)
 
 
-def _turned(begin: float, end: float) -> tuple[float, float]:
+def _counterclockwise_turn(begin: float, end: float) -> tuple[float, float]:
     """Return two angles as a counterclockwise turn; equal ones, or ones a full turn apart, give the full circle."""
     swept = (end - begin) % tau
     # not for a begin a full turn after the end: a short arc over angle 0 has such angles
@@ -458,7 +458,7 @@ def _turned(begin: float, end: float) -> tuple[float, float]:
     return begin, begin + swept
 
 
-def _plain(number: float) -> str:
+def _grouped_digits(number: float) -> str:
     """Return a number with commas, such as 20,000,000, or with an exponent if that would be long."""
     return f"{number:,.0f}" if abs(number) < 1e3 * LARGEST_COORDINATE else f"{number:g}"
 

@@ -273,10 +273,10 @@ def _fault(kind: str, counts: Counter[int], body: list[Tag]) -> str:
     for code in _AT_MOST_ONCE.get(kind, ()):
         if counts[code] > 1:
             return f"has group code {code} {_times(counts[code])}"
-    for what, code, counted in _COUNTED.get(kind, ()):
+    for noun, code, counted in _COUNTED.get(kind, ()):
         stated = next((tag.value for tag in body if tag.code == code), None)
         if stated is not None and (not stated.isdecimal() or int(stated) != counts[counted]):
-            return f"names {stated} {what} and has {counts[counted]}"
+            return f"names {stated} {noun} and has {counts[counted]}"
     return ""
 
 

@@ -123,16 +123,18 @@ def sentences(listed: ContourList, unit: Unit) -> Iterator[str]:
     if cleaned.tiny:
         yield f"{_were(cleaned.tiny, 'piece', f'shorter than TOLERANCE {tolerance}')} dropped."
     if cleaned.duplicates:
-        off, at = cleaned.off
-        most = f", off by up to {_gap_text(off, unit)} at {_place(at, unit)}" if off > SAME_POINT else ""
-        yield f"{_were(cleaned.duplicates, 'equal piece')} dropped{most}."
+        difference, at = cleaned.largest_difference
+        extent = (
+            f", off by up to {_gap_text(difference, unit)} at {_place(at, unit)}" if difference > SAME_POINT else ""
+        )
+        yield f"{_were(cleaned.duplicates, 'equal piece')} dropped{extent}."
     if cleaned.overlaps:
         yield f"{_were(cleaned.overlaps, 'overlapping piece')} joined."
     if cleaned.shared:
         yield f"{_were(cleaned.shared, 'piece', 'drawn twice')} kept for two contours."
     yield f"largest gap {_gap_text(listed.gap, unit)}."
     for branch in listed.branches:
-        yield f"branch at {_place(branch.at, unit)}: {branch.ways - 1} ways."
+        yield f"branch at {_place(branch.at, unit)}: {branch.end_count - 1} ways."
 
 
 def _were(count: int, noun: str, which: str = "") -> str:

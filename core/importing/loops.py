@@ -59,7 +59,7 @@ def chained(pieces: Sequence[Piece], tolerance: float) -> tuple[list[Chain], lis
 class _Chainer:
     pieces: list[Piece]
     nodes: Nodes
-    ways: list[list[Link]] = field(default_factory=list)
+    leaving: list[list[Link]] = field(default_factory=list)
     """For each node the links that leave it, counterclockwise."""
     areas: list[float] = field(default_factory=list)
     """The area between each piece and a point, positive if it passes that point counterclockwise."""
@@ -67,17 +67,17 @@ class _Chainer:
     def run(self) -> list[Chain]:
         """Return the closed chains, then what is left as open chains."""
         self.areas = [signed_area((Line(self.nodes.places[0], piece.start), piece)) for piece in self.pieces]
-        self.ways = [[] for _ in self.nodes.places]
+        self.leaving = [[] for _ in self.nodes.places]
         for row, (first, last) in enumerate(self.nodes.of_piece):
-            self.ways[first].append(Link(row, True))
-            self.ways[last].append(Link(row, False))
-        for ways in self.ways:
-            ways.sort(key=self._direction)
-        chains, rest = list[Chain](), set(range(len(self.pieces)))
-        while loops := self._loops(self._outlines(rest)):
+            self.leaving[first].append(Link(row, True))
+            self.leaving[last].append(Link(row, False))
+        for links in self.leaving:
+            links.sort(key=self._direction)
+        chains, unchained = list[Chain](), set(range(len(self.pieces)))
+        while loops := self._loops(self._outlines(unchained)):
             chains += [Chain(loop, True) for loop in loops]
-            rest -= {link.row for loop in loops for link in loop}
-        return chains + self._open_chains(sorted(rest))
+            unchained -= {link.row for loop in loops for link in loop}
+        return chains + self._open_chains(sorted(unchained))
 
     def _direction(self, link: Link) -> tuple[float, float, int]:
         """Return the sort key of a link: its direction from its first node, then how it bends to the left."""
@@ -95,13 +95,15 @@ class _Chainer:
     def _outlines(self, rows: Collection[int]) -> list[list[Link]]:
         """Return the walk around all of each group of connected pieces."""
         following: dict[Link, Link] = {}
-        groups = Groups(len(self.ways))
+        groups = Groups(len(self.leaving))
         for row in rows:
             groups.join(*self.nodes.of_piece[row])
-        for ways in self.ways:
-            left = [way for way in ways if way.row in rows]
-            # who arrives turns to the right as far as possible: to the next way counterclockwise
-            following |= {way.back: after for way, after in zip(left, (*left[1:], *left[:1]), strict=True)}
+        for links in self.leaving:
+            candidates = [link for link in links if link.row in rows]
+            # an arriving walk turns to the right as far as possible: to the next leaving link counterclockwise
+            following |= {
+                link.back: after for link, after in zip(candidates, (*candidates[1:], *candidates[:1]), strict=True)
+            }
         outlines: dict[int, tuple[float, list[Link]]] = {}
         for first in list(following):
             if first not in following:

@@ -96,11 +96,11 @@ def nc_blocks(program: Program, read: NcProgram) -> tuple[Program, list[Imported
 
     Raises `segments.DoesNotFitError`.
     """
-    made: list[ImportedBlock] = []
+    imported: list[ImportedBlock] = []
     for number, contour in enumerate(read.contours, 1):
         program = _with_tool(program, contour)
-        made.append(_block(number, contour, program))
-    return replace(program, blocks=(*program.blocks, *(item.block for item in made))), made
+        imported.append(_block(number, contour, program))
+    return replace(program, blocks=(*program.blocks, *(item.block for item in imported))), imported
 
 
 def _with_tool(program: Program, contour: NcContour) -> Program:

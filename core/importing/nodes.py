@@ -64,11 +64,11 @@ def nodes_of(pieces: Sequence[Piece], tolerance: float, *, exact: bool = False) 
     """Return the nodes of pieces, none of them a full circle; if `exact` by position alone: loose ends stay loose."""
     ends = [point for piece in pieces for point in (piece.start, piece.end)]
     groups = _same_points(ends, min(tolerance, SAME_POINT))
-    made = _numbered(ends, groups)
+    nodes = _numbered(ends, groups)
     if tolerance > SAME_POINT and not exact:
-        _join_loose(pieces, made, groups, tolerance)
-        made = _numbered(ends, groups)
-    return made
+        _join_loose(pieces, nodes, groups, tolerance)
+        nodes = _numbered(ends, groups)
+    return nodes
 
 
 def _same_points(ends: Sequence[Point], slack: float) -> Groups:
@@ -128,8 +128,8 @@ def _near_by_path(pieces: Sequence[Piece], nodes: Nodes, start: int, reach: floa
         node = waiting.pop()
         for piece in nodes.pieces[node]:
             first, last = nodes.of_piece[piece]
-            other, way = (last if first == node else first), best[node] + pieces[piece].length
-            if way <= reach and way < best.get(other, float("inf")):
-                best[other] = way
+            other, distance = (last if first == node else first), best[node] + pieces[piece].length
+            if distance <= reach and distance < best.get(other, float("inf")):
+                best[other] = distance
                 waiting.append(other)
     return set(best)

@@ -33,12 +33,12 @@ def offset_back(cuts: Sequence[Cut], side: Side, radius: float) -> tuple[list[Cu
 
     The look-ahead is None if the calculated one gives the path.  NcError with the line if there is no contour.
     """
-    kept = [(cut, piece) for cut in cuts if (piece := _shifted(cut, side, radius)) is not None]
-    if not kept:
+    shifted = [(cut, piece) for cut in cuts if (piece := _shifted(cut, side, radius)) is not None]
+    if not shifted:
         raise NcError(f"Line {cuts[0].line}: the path only turns about a point; there is no contour.")
     ring = dist(cuts[0].piece.start, cuts[-1].piece.end) <= CLOSED
-    closed = ring or dist(kept[0][1].start, kept[-1][1].end) <= CLOSED
-    extended, corner_at_start = _extended(kept, closed=closed)
+    closed = ring or dist(shifted[0][1].start, shifted[-1][1].end) <= CLOSED
+    extended, corner_at_start = _extended(shifted, closed=closed)
     pieces = joined_chain([cut.piece for cut in extended], closed=closed, tolerance=SAME_PATH).pieces
     if len(pieces) != len(extended):
         raise NcError(f"Line {cuts[0].line}: no contour has this path.")

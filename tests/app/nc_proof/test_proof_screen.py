@@ -325,7 +325,7 @@ async def test_tools_of_the_last_time_come_before_those_of_the_header(tmp_path):
         await user.settle()
         assert user.proof.request.tools.tools == read_tools(saved_tools).tools
         assert user.proof.request.tools.get(1) == CutterTool(1, 0.625, unit=Unit.IN)
-        assert "the last time" in user.prompt
+        assert "last time" in user.prompt
 
 
 def test_damaged_tools_of_the_last_time_are_left_out():

@@ -479,7 +479,7 @@ async def test_a_spline_export_of_two_thousand_lines_becomes_arcs_and_can_be_und
         await user.until(lambda: user.importing.unfitted)
         fitted = user.contour.fitted
         assert fitted is not None
-        assert (fitted.before, len(fitted.pieces) < 150, fitted.off <= 0.005) == (2000, True, True)
+        assert (fitted.before, len(fitted.pieces) < 150, fitted.deviation <= 0.005) == (2000, True, True)
         await user.press("enter")
         await user.taken()
         assert len(user.session.program.blocks[0].segments) <= len(fitted.pieces) + 1

@@ -232,14 +232,14 @@ def test_a_tail_of_lines_is_separated_from_its_contour() -> None:
     tail = [line((10, 10), (15, 12)), line((15, 12), (20, 10)), line((20, 10), (25, 15))]
     drawing = listed(dxf(*square(0, 0, 10), *tail))
     assert [(contour.closed, contour.drawn) for contour in drawing.contours] == [(True, 4), (False, 3)]
-    assert (drawing.branches[0].ways, drawing.branches[0].contours) == (3, (2,))
+    assert (drawing.branches[0].end_count, drawing.branches[0].contours) == (3, (2,))
 
 
 def test_two_chosen_open_contours_at_a_branch_are_joined() -> None:
     drawing = listed(dxf(line((0, 0), (10, 0)), line((10, 0), (20, 5)), line((10, 0), (20, -5))))
     assert [contour.closed for contour in drawing.contours] == [False] * 3
     branch = drawing.branches[0]
-    assert (branch.ways, branch.contours) == (3, (1, 2, 3))
+    assert (branch.end_count, branch.contours) == (3, (1, 2, 3))
     flat = next(contour for contour in drawing.contours if contour.size[1] == 0.0)
     other = next(contour for contour in drawing.contours if contour is not flat)
     joined = joined_open(flat, other, 0.01)
@@ -395,7 +395,7 @@ def test_a_contour_keeps_the_edge_that_runs_near_another_contour(
     inner = [line(start, end) for start, end in itertools.pairwise([*corners, corners[0]])]
     drawing = listed(dxf(*square(0, 0, 10), *inner))
     assert [contour.area for contour in drawing.contours] == pytest.approx([100.0, area], abs=1e-3)
-    assert (drawing.cleaned.duplicates, drawing.cleaned.off[0]) == (0, 0.0)
+    assert (drawing.cleaned.duplicates, drawing.cleaned.largest_difference[0]) == (0, 0.0)
 
 
 @pytest.mark.parametrize(
@@ -404,7 +404,7 @@ def test_a_contour_keeps_the_edge_that_runs_near_another_contour(
 def test_a_copy_near_its_original_is_dropped(copy: list[list[tuple[int, object]]], count: int) -> None:
     drawing = listed(dxf(*square(0, 0, 10), *copy))
     assert [(contour.closed, contour.drawn) for contour in drawing.contours] == [(True, 4)]
-    assert (drawing.cleaned.duplicates, drawing.cleaned.off[0]) == pytest.approx((count, 0.005))
+    assert (drawing.cleaned.duplicates, drawing.cleaned.largest_difference[0]) == pytest.approx((count, 0.005))
 
 
 def test_a_doubled_drawing_keeps_its_dividing_line() -> None:
@@ -616,7 +616,7 @@ def test_a_sampled_slot_becomes_lines_and_arcs_again() -> None:
     assert fitted.fitted is not None
     assert fitted.fitted.before == 402
     assert fitted.drawn <= 6
-    assert fitted.fitted.off <= 0.005
+    assert fitted.fitted.deviation <= 0.005
     assert fitted.area == pytest.approx(20 * 10 + math.pi * 25, abs=0.2)
     assert any(isinstance(piece, Line) for piece in fitted.pieces)
 

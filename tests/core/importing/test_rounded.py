@@ -190,7 +190,7 @@ def test_a_curve_of_2000_lines_becomes_few_arcs() -> None:
     fitted = fitted_contour(contour, 0.005)
     assert fitted.fitted is not None
     assert fitted.drawn <= 80
-    assert fitted.fitted.off <= 0.005
+    assert fitted.fitted.deviation <= 0.005
     samples = np.array([complex(*piece.point_at(share)) for piece in fitted.pieces for share in np.linspace(0, 1, 40)])
     curve = 40 * np.cos(at) + 6 * np.cos(3 * at) + 25j * np.sin(at)
     middles = (curve[1:] + curve[:-1]) / 2
