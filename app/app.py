@@ -160,11 +160,11 @@ class CutcompApp(TransformActions):
         Nobody may type into the form of a new program that is not meant.
         """
         opened = None if self._opened is None else self._opened.document
-        later = self.drawing or (opened.file.path if isinstance(opened, NcDocument) else None)
+        opened_later = self.drawing or (opened.file.path if isinstance(opened, NcDocument) else None)
         if self._home:
             self.action_home()
-        elif later is not None:
-            self.push_screen(OpeningScreen(later.name))
+        elif opened_later is not None:
+            self.push_screen(OpeningScreen(opened_later.name))
 
     def on_ready(self) -> None:
         """Start the first calculation once the first screen is painted; show the opened file and its question."""
@@ -234,8 +234,8 @@ class CutcompApp(TransformActions):
     @work(group="question")
     async def _bring_over_proofs(self, depth: int) -> None:
         """Bring the screen at `depth` to the front; ask about the NC texts on top of it and close them."""
-        over = self.screen_stack[depth + 1 :]
-        documents = [proof.document for proof in self.proofs if proof in over]
+        screens_above = self.screen_stack[depth + 1 :]
+        documents = [proof.document for proof in self.proofs if proof in screens_above]
         if await self.close_documents("LEAVE NC PROOF?", documents):
             self._uncover(depth)
 
@@ -379,10 +379,8 @@ class CutcompApp(TransformActions):
         from app.terminal.driver import has_mouse, take_mouse
 
         take_mouse(self, not has_mouse(self))
-        words = (
-            "Clicks act here." if has_mouse(self) else "The mouse is the terminal's again: it marks and copies text."
-        )
-        self.say(words)
+        text = "Clicks act here." if has_mouse(self) else "The mouse is the terminal's again: it marks and copies text."
+        self.say(text)
         self.keep_settings(replace(self.settings, mouse=has_mouse(self)))
 
     def action_next_characters(self) -> None:

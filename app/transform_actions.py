@@ -55,8 +55,8 @@ class TransformActions(FileActions):
         # taken later, a number would go into the transformed shape
         if not self.take_typed():
             return
-        rest = self.session.without_empty()
-        program, number = rest.program, rest.place.block
+        session = self.session.without_empty()
+        program, number = session.program, session.place.block
         edited = await self._edited(
             title, line, entries, lambda *numbers: block_motion.transform_block(program, number, motion_of(*numbers))
         )
@@ -65,8 +65,8 @@ class TransformActions(FileActions):
             self.clear_notice()
             before, after = (each.blocks[number - 1] for each in (program, self.session.program))
             side = "" if after.cutter_comp is before.cutter_comp else f" CUTTER COMP. is {after.cutter_comp} now."
-            lost = segment_numbers(block_motion.no_longer_typed(before, after))
-            points = f" Typed points replace the data of segments {lost}." if lost else ""
+            retyped = segment_numbers(block_motion.no_longer_typed(before, after))
+            points = f" Typed points replace the data of segments {retyped}." if retyped else ""
             self.notify(f"{title} {number} is done.{side}{points} Ctrl+Z undoes it.", timeout=4)
 
     @work(exclusive=True, group="question")
@@ -102,18 +102,21 @@ class TransformActions(FileActions):
         # taken later, a number would go into the transformed shape
         if not self.take_typed():
             return
-        rest = self.session.without_empty()
-        program, place = rest.program, rest.place
+        session = self.session.without_empty()
+        program, place = session.program, session.place
 
         def repeated(first: float, last: float, *numbers: float) -> Edited:
             *values, copies = numbers
             motion = motion_of(*values)
             return block_motion.repeat_segments(program, place.block, int(first), int(last), motion, int(copies))
 
-        here = str(min(max(self.session.place.segment, 1), max(len(rest.block.segments), 1)))
-        which = (NumberEntry("FIRST SEGMENT", Kind.COUNT, here), NumberEntry("LAST SEGMENT", Kind.COUNT, here))
+        current = str(min(max(self.session.place.segment, 1), max(len(session.block.segments), 1)))
+        segment_entries = (
+            NumberEntry("FIRST SEGMENT", Kind.COUNT, current),
+            NumberEntry("LAST SEGMENT", Kind.COUNT, current),
+        )
         line = "The copies follow the last of these segments."
-        edited = await self._edited(title, line, (*which, *entries, COPIES_ENTRY), repeated)
+        edited = await self._edited(title, line, (*segment_entries, *entries, COPIES_ENTRY), repeated)
         if edited is not None and self.apply(edited, f"{title}, block {place.block}"):
             # messages about the previous edit no longer apply
             self.clear_notice()

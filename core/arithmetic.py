@@ -23,7 +23,9 @@ class CannotReadError(Exception):
 
 _TOKEN: Final = re.compile(r"\s*(?:(?P<number>[0-9]+\.?[0-9]*|\.[0-9]+)|(?P<sign>[-+*/()])|(?P<word>[^\W\d_]+|\S))")
 
-_ALIKE: Final = str.maketrans({"\t": " ", "\N{MINUS SIGN}": "-", "\N{EN DASH}": "-", "\N{MULTIPLICATION SIGN}": "*"})
+_REPLACED_SIGNS: Final = str.maketrans(
+    {"\t": " ", "\N{MINUS SIGN}": "-", "\N{EN DASH}": "-", "\N{MULTIPLICATION SIGN}": "*"}
+)
 
 _DASHED: Final = re.compile(r"\s*([-+]?[0-9]+)-([0-9]+)/(2|4|8|16|32|64)\s*[^-+*/()0-9]*")
 
@@ -33,7 +35,7 @@ def evaluate(text: str, scales: Mapping[str, Fraction], expected: str) -> Fracti
 
     `scales` holds the factor of each suffix, `expected` says what the field takes, such as "type a whole number".
     """
-    text = text.translate(_ALIKE)
+    text = text.translate(_REPLACED_SIGNS)
     if not text.strip():
         raise CannotReadError("Type a number.")
     if len(text) > MAX_CHARACTERS:
@@ -44,7 +46,7 @@ def evaluate(text: str, scales: Mapping[str, Fraction], expected: str) -> Fracti
         raise CannotReadError("Use one decimal point (1.5) and no thousands comma.")
     _refuse_dashed(text)
     tokens = [(match.lastgroup or "", match[match.lastgroup or 0]) for match in _TOKEN.finditer(text.rstrip())]
-    return _Reader(tokens, scales, expected, text.strip()).whole()
+    return _Reader(tokens, scales, expected, text.strip()).result()
 
 
 def _refuse_dashed(text: str) -> None:
@@ -83,20 +85,20 @@ class _Reader:
 
     def take(self, signs: str) -> str:
         """Take and return the next token if it is one of these signs; else return an empty string."""
-        sort, text = self.peek()
-        if sort != "sign" or text not in signs:
+        kind, text = self.peek()
+        if kind != "sign" or text not in signs:
             return ""
         self.at += 1
         return text
 
-    def whole(self) -> Fraction:
+    def result(self) -> Fraction:
         value = self.sum()
-        sort, text = self.peek()
-        if sort == "number":
+        kind, text = self.peek()
+        if kind == "number":
             raise CannotReadError(f"{self.typed} is not a number.")
         if text == ")":
             raise CannotReadError("One bracket too many.")
-        if sort != "end":
+        if kind != "end":
             raise CannotReadError(f"{text} does not belong there.")
         return value.scaled()
 
@@ -114,7 +116,7 @@ class _Reader:
         value = self.signed()
         while sign := self.take("*/"):
             factor = self.signed()
-            value = _times(value, factor) if sign == "*" else _over(value, factor)
+            value = _product(value, factor) if sign == "*" else _quotient(value, factor)
         return value
 
     def signed(self) -> _Amount:
@@ -124,8 +126,8 @@ class _Reader:
 
     def single(self) -> _Amount:
         amount = self.bracket() if self.take("(") else _Amount(self.number())
-        sort, text = self.peek()
-        if sort != "word":
+        kind, text = self.peek()
+        if kind != "word":
             return amount
         if text.lower() not in self.scales:
             raise CannotReadError(f"{text} is not a unit here: {self.expected}.")
@@ -141,10 +143,10 @@ class _Reader:
         return replace(inside, bracket=True)
 
     def number(self) -> Fraction:
-        sort, text = self.peek()
-        if sort == "word":
+        kind, text = self.peek()
+        if kind == "word":
             raise CannotReadError(f"{text} is not a number: {self.expected}.")
-        if sort != "number":
+        if kind != "number":
             raise CannotReadError(f"A number is missing {f'before {text}' if text else 'at the end'}.")
         self.at += 1
         return Fraction(text) + self.fraction(text)
@@ -164,13 +166,13 @@ class _Reader:
         return Fraction(int(above), int(below))
 
 
-def _times(left: _Amount, right: _Amount) -> _Amount:
+def _product(left: _Amount, right: _Amount) -> _Amount:
     if left.scale is not None and right.scale is not None:
         raise CannotReadError("Length times length: remove one unit.")
     return _Amount(left.value * right.value, right.scale if left.scale is None else left.scale)
 
 
-def _over(left: _Amount, right: _Amount) -> _Amount:
+def _quotient(left: _Amount, right: _Amount) -> _Amount:
     if right.value == 0:
         raise CannotReadError("Division by zero.")
     if right.scale is not None and (left.scale is not None or right.bracket):

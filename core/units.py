@@ -87,15 +87,15 @@ def convert(value: float, old: Unit, new: Unit) -> float:
         return value
     exact = Fraction(value) * MM_PER[old] / MM_PER[new]
     candidates = (float(round(exact, decimals)) for decimals in range(KEPT_DECIMALS[new], MOST_DECIMALS))
-    return next((candidate for candidate in candidates if _leads_back(candidate, value, old, new)), float(exact))
+    return next((candidate for candidate in candidates if _converts_back(candidate, value, old, new)), float(exact))
 
 
-def _leads_back(converted: float, value: float, old: Unit, new: Unit) -> bool:
+def _converts_back(converted: float, value: float, old: Unit, new: Unit) -> bool:
     """True if converting `converted` back gives `value`, with the kept decimals if these are enough."""
     factor = MM_PER[new] / MM_PER[old]
-    kept = float(round(Fraction(converted) * factor, KEPT_DECIMALS[old]))
-    will_do = float(round(Fraction(kept) / factor, KEPT_DECIMALS[new])) == converted
-    return value == (kept if will_do else float(Fraction(converted) * factor))
+    rounded = float(round(Fraction(converted) * factor, KEPT_DECIMALS[old]))
+    rounded_converts_again = float(round(Fraction(rounded) / factor, KEPT_DECIMALS[new])) == converted
+    return value == (rounded if rounded_converts_again else float(Fraction(converted) * factor))
 
 
 def show(value: float, kind: Kind, unit: Unit) -> str:
@@ -138,8 +138,8 @@ def plain(text: str) -> str:
 
 def printable(text: str) -> str:
     """Return a user's text fit for a message: on one line, short, and without characters that move the cursor."""
-    whole = plain(text.strip())
-    return whole if len(whole) <= MAX_QUOTED else f"{whole[:MAX_QUOTED]}..."
+    line = plain(text.strip())
+    return line if len(line) <= MAX_QUOTED else f"{line[:MAX_QUOTED]}..."
 
 
 def sentence(finding: Finding, unit: Unit) -> str:
@@ -157,12 +157,12 @@ def sentence(finding: Finding, unit: Unit) -> str:
         length, other = known.get(place[1]), known.get(place[2] or "")
         if length is None or (place[2] and other is None):
             return place[0]
-        here = from_mm(length, unit)
+        value = from_mm(length, unit)
         if place[3]:
-            return _rounded_inward(here, unit, up=place[3] == "+")
+            return _rounded_inward(value, unit, up=place[3] == "+")
         if other is None or abs(length - other) <= ROUNDING:
-            return show(here, Kind.LENGTH, unit)
-        return _telling_digits(here, from_mm(other, unit), unit)
+            return show(value, Kind.LENGTH, unit)
+        return _distinguishing_digits(value, from_mm(other, unit), unit)
 
     return re.sub(r"\{(\w+)(?:~(\w+)|([-+]))?\}", fill, finding.text)
 
@@ -183,30 +183,30 @@ def located_sentence(finding: Finding, unit: Unit) -> str:
 
 def _rounded_inward(value: float, unit: Unit, *, up: bool) -> str:
     """Format a limit with a form's decimals so that the number typed is within it; more decimals if it were 0."""
-    fewest = decimals_shown(Kind.LENGTH, unit)
+    form_decimals = decimals_shown(Kind.LENGTH, unit)
     text = show(value, Kind.LENGTH, unit)
     if not isfinite(value) or abs(value) <= LAST_DIGITS:
         return text
-    for digits in range(fewest, fewest + EXTRA_DECIMALS):
+    for digits in range(form_decimals, form_decimals + EXTRA_DECIMALS):
         # a difference of typed numbers may miss what it should be by its last digits
-        whole = ceil((value - LAST_DIGITS) * 10**digits) if up else floor((value + LAST_DIGITS) * 10**digits)
-        text = f"{whole / 10**digits:.{digits}f}"
-        if whole:
+        steps = ceil((value - LAST_DIGITS) * 10**digits) if up else floor((value + LAST_DIGITS) * 10**digits)
+        text = f"{steps / 10**digits:.{digits}f}"
+        if steps:
             break
     return text
 
 
-def _telling_digits(value: float, other: float, unit: Unit) -> str:
+def _distinguishing_digits(value: float, other: float, unit: Unit) -> str:
     """Format a length with a form's decimals, or with as many more as it takes to show its distance from another."""
     if not (isfinite(value) and isfinite(other)):
         return show(value, Kind.LENGTH, unit)
-    apart, fewest = abs(value - other), decimals_shown(Kind.LENGTH, unit)
+    difference, form_decimals = abs(value - other), decimals_shown(Kind.LENGTH, unit)
     enough = (
         digits
-        for digits in range(fewest, fewest + EXTRA_DECIMALS)
-        if abs(abs(round(value, digits) - round(other, digits)) - apart) <= apart / 10.0
+        for digits in range(form_decimals, form_decimals + EXTRA_DECIMALS)
+        if abs(abs(round(value, digits) - round(other, digits)) - difference) <= difference / 10.0
     )
-    return f"{value:.{next(enough, fewest + EXTRA_DECIMALS)}f}"
+    return f"{value:.{next(enough, form_decimals + EXTRA_DECIMALS)}f}"
 
 
 def parse(text: str, kind: Kind, unit: Unit) -> float | Unreadable:

@@ -145,17 +145,17 @@ def _print_list(listed: ContourList) -> None:
     print(*sentences(listed, listed.unit), sep="\n")
 
 
-def _numbers(chain: str | None, count: int, what: str, show: Callable[[], None]) -> set[int]:
+def _numbers(chain: str | None, count: int, source: str, show: Callable[[], None]) -> set[int]:
     """Return the numbers that --chain names; if it is missing but needed, show the list and raise Unusable."""
     if chain is None and count > 1:
         show()
-        raise Unusable(f"The {what} has {count} chains: add --chain N, --chain 1,2 or --chain all.")
+        raise Unusable(f"The {source} has {count} chains: add --chain N, --chain 1,2 or --chain all.")
     if chain is None or chain.strip().lower() == "all":
         return set(range(1, count + 1))
     numbers = [part.strip() for part in chain.split(",")]
     wrong = next((part for part in numbers if not part.isdecimal() or not 1 <= int(part) <= count), None)
     if wrong is not None:
-        raise Unusable(f"--chain {wrong}: the {what} has chains 1 to {count}.")
+        raise Unusable(f"--chain {wrong}: the {source} has chains 1 to {count}.")
     return {int(part) for part in numbers}
 
 
@@ -195,8 +195,8 @@ def _write(options: argparse.Namespace, listed: ContourList, contours: tuple[Con
 
 def _write_program(options: argparse.Namespace, program: Program, remark: str) -> None:
     """Write the program, with a comment on its source after the first line."""
-    first, _, rest = dumps(program).partition("\n")
-    text = f"{first}\n{remark}\n{rest}"
+    first_line, _, remaining_lines = dumps(program).partition("\n")
+    text = f"{first_line}\n{remark}\n{remaining_lines}"
     if options.output is None:
         sys.stdout.write(text)
         return

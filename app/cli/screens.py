@@ -63,7 +63,7 @@ def run(
     home = path is None and example is None
     app = make_app(service, opened, options, check_request, home=home)
     app.drawing = drawing
-    return guarded(service, app, mouse=options.mouse or app.settings.mouse)
+    return run_to_the_end(service, app, mouse=options.mouse or app.settings.mouse)
 
 
 @reported
@@ -151,20 +151,20 @@ def make_app(
     return app
 
 
-def guarded(service: DocumentService, app: CutcompApp, *, mouse: bool = False) -> int:
+def run_to_the_end(service: DocumentService, app: CutcompApp, *, mouse: bool = False) -> int:
     """Run the App to its end, wanted or not; unsaved work stays in the journals."""
     from app.terminal.signals import Safety
 
-    def last() -> None:
+    def stop_service() -> None:
         with suppress(TimeoutError):
             app.disk.do(service.stop, EXIT_SECONDS)
 
-    safety = Safety(lambda status: app.exit(status, return_code=status), last)
+    safety = Safety(lambda status: app.exit(status, return_code=status), stop_service)
     safety.arm()
     try:
         app.run(mouse=mouse)
     finally:
-        last()
+        stop_service()
     if safety.status is not None:
         safety.leave()
     return app.return_code or 0

@@ -41,7 +41,7 @@ def refusal(host: str, *, allow_network: bool) -> str:
     """Return why an address is not served; empty if it is."""
     if allow_network or is_local(host):
         return ""
-    return f"{host} can be reached by others. {NO_LOGIN} Say --allow-network if that is what you want."
+    return f"{host} can be reached by others. {NO_LOGIN} Add --allow-network if you want that."
 
 
 def is_local(host: str) -> bool:

@@ -26,7 +26,7 @@ program that paints 100,000 lines takes gigabytes."""
 log = logging.getLogger("cutcomp.serve")
 
 
-def cells(width: int, height: int) -> tuple[int, int]:
+def limited_size(width: int, height: int) -> tuple[int, int]:
     """Return the size that a page asks for, limited to what a screen can be."""
     return max(WIDTHS[0], min(width, WIDTHS[1])), max(HEIGHTS[0], min(height, HEIGHTS[1]))
 
@@ -48,11 +48,11 @@ class Service(AppService):
 
     async def start(self, width: int, height: int) -> None:
         """Start the program on a screen of the size that the page asks for."""
-        await super().start(*cells(width, height))
+        await super().start(*limited_size(width, height))
 
     async def set_terminal_size(self, width: int, height: int) -> None:
         """Tell the program the page's new size."""
-        await super().set_terminal_size(*cells(int(width), int(height)))
+        await super().set_terminal_size(*limited_size(int(width), int(height)))
 
     async def send_bytes(self, data: bytes) -> bool:
         """Send keys to the program; return True if they were sent.  A program that does not take them is killed."""

@@ -44,13 +44,13 @@ def serve(file: Path | None, host: str, port: int) -> None:
     secret = secrets.token_urlsafe(24)
     server = ScreenServer(file, host, port, secret)
     server.initialize_logging()
-    words = f"Open {address(host, port)}/{secret}/\nPress Ctrl+C to end."
+    text = f"Open {address(host, port)}/{secret}/\nPress Ctrl+C to end."
     web.run_app(
         server.app(),
         host=host,
         port=port,
         # printed once it listens; a log of every request would repeat the secret
-        print=lambda _: print(words, flush=True),
+        print=lambda _: print(text, flush=True),
         access_log=None,
         shutdown_timeout=GRACE_SECONDS,
     )

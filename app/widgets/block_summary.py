@@ -43,8 +43,8 @@ def about(block: DerivedBlock, unit: Unit, characters: str) -> list[tuple[str, C
     tool = "no diameter" if diameter is None else f"{block.solved.tool_type}  {length(diameter, unit)}"
     number = block.block.tool.value if isinstance(block.block.tool, Number) else None
     lines += [("TOOL" if number is None else f"TOOL {number:g}", tool), ("LIMITS", _limits(block, unit))]
-    texts = [(name, Content(text)) for name, text in lines if text]
-    return [*texts, ("VERDICT", chips(Case(block, None, unit), MARKS_OF_CHARACTERS[characters], width=TEXT_WIDTH))]
+    contents = [(name, Content(text)) for name, text in lines if text]
+    return [*contents, ("VERDICT", chips(Case(block, None, unit), MARKS_OF_CHARACTERS[characters], width=TEXT_WIDTH))]
 
 
 def _contour(block: DerivedBlock, unit: Unit) -> str:

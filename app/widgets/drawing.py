@@ -121,7 +121,7 @@ class Drawing(Widget):
         """Move the window by steps, but never far away from the drawing."""
         if self.drawn is not None and self.subject is not None:
             view = (self.subject.view or self.drawn.view).pan(PAN_SHARE * right, PAN_SHARE * up, *self.size)
-            if view.touches(self.drawn.bounds, MAX_PAN_FACTOR):
+            if view.is_near(self.drawn.bounds, MAX_PAN_FACTOR):
                 self.show_view(view)
 
     def action_fit(self) -> None:
@@ -146,10 +146,10 @@ class Drawing(Widget):
 
     def redraw(self) -> None:
         """Make the picture in a worker, unless it is already made or the drawing is hidden."""
-        wanted = (self.subject, self.characters, self.size)
-        if wanted == self._made or not self._seen:
+        key = (self.subject, self.characters, self.size)
+        if key == self._made or not self._seen:
             return
-        self._made = wanted
+        self._made = key
         if self.subject is None:
             self._show(None)
         else:
@@ -171,9 +171,9 @@ class Drawing(Widget):
         picture = subject.drawn(size.width, size.height, Mode(characters))
         self.app.call_from_thread(self._finished, (subject, characters, size), picture)
 
-    def _finished(self, wanted: tuple[object, ...], picture: Drawn | None) -> None:
+    def _finished(self, key: tuple[object, ...], picture: Drawn | None) -> None:
         """Show a picture from the worker, unless another one is wanted by now."""
-        if wanted == self._made and self.is_attached:
+        if key == self._made and self.is_attached:
             self._show(picture)
 
     def _show(self, picture: Drawn | None) -> None:

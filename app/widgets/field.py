@@ -157,9 +157,9 @@ class NumberField(LineInput):
 
         Without the cursor, a text that is too long is cut, and > marks the cut.
         """
-        room = self.size.width
-        if not self.has_focus and len(self.value) >= room > 0:
-            text = self.value if len(self.value) == room else f"{self.value[: room - 1]}>"
+        width = self.size.width
+        if not self.has_focus and len(self.value) >= width > 0:
+            text = self.value if len(self.value) == width else f"{self.value[: width - 1]}>"
             return Strip([Segment(text, self.rich_style)])
         strip = super().render_line(y)
         cursor = 1 if self.has_focus else 0
@@ -259,9 +259,9 @@ class ChoiceField(Select[str], inherit_bindings=False):
         self.post_message(self.Unknown(self.name or "", self.refused))
 
     def _choice_spelled(self, spelled: str) -> str | None:
-        here = self.choices.index(self.value) if self.value in self.choices else -1
+        current = self.choices.index(self.value) if self.value in self.choices else -1
         # the first letter searches after the current choice; several letters may match the current one too
-        first = here + 1 if len(spelled) == 1 else max(here, 0)
+        first = current + 1 if len(spelled) == 1 else max(current, 0)
         order = (*self.choices[first:], *self.choices[:first])
         return next((choice for choice in order if choice.startswith(spelled)), None)
 

@@ -71,8 +71,8 @@ class FindingsList(OptionRows):
 
     def _show(self) -> None:
         """Show the findings; the highlight keeps its index, or goes to the last one if there are fewer."""
-        now, at, self._room = self.entries, self.highlighted, self.content_region.size
-        self.border_title = f"FINDINGS  {len(now)}" if now else "FINDINGS  none"
+        entries, at, self._room = self.entries, self.highlighted, self.content_region.size
+        self.border_title = f"FINDINGS  {len(entries)}" if entries else "FINDINGS  none"
         self._width = self._room.width
         lines = self._wrapped_entries()
         if sum(line.plain.count("\n") + 1 for line in lines) > self._room.height:
@@ -81,7 +81,7 @@ class FindingsList(OptionRows):
             lines = self._wrapped_entries()
         self.clear_options()
         self.add_options([Option(line, id=str(number)) for number, line in enumerate(lines)])
-        self.highlighted = None if not now else min(at or 0, len(now) - 1)
+        self.highlighted = None if not entries else min(at or 0, len(entries) - 1)
 
     watch_entries = watch_characters = _show
 

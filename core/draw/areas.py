@@ -85,11 +85,11 @@ def uncut(
         (depth, path) for path, depth in zip(stretches, thicknesses, strict=True) if isfinite(depth) and depth > sag
     ]
     pairs.sort(key=lambda pair: -pair[0])
-    near = shapely.union_all(list(_near(pairs[:MAX_STRETCHES], sag)))
-    return near.difference(part).difference(swept(paths, radius, sag))
+    bands = shapely.union_all(list(_bands(pairs[:MAX_STRETCHES], sag)))
+    return bands.difference(part).difference(swept(paths, radius, sag))
 
 
-def _near(pairs: Iterable[tuple[float, Path]], sag: float) -> Iterator[BaseGeometry]:
+def _bands(pairs: Iterable[tuple[float, Path]], sag: float) -> Iterator[BaseGeometry]:
     for depth, path in pairs:
         if len(points := chords_of(path, sag)) > 1:
             yield LineString(points).buffer(depth + sag, quad_segs=CHORDS_PER_QUARTER)

@@ -35,7 +35,7 @@ class CellSheet:
     styles: bytearray
 
 
-def write_signs(sheet: CellSheet, scene: Scene, view: View, mode: Mode) -> None:
+def write_marks_and_labels(sheet: CellSheet, scene: Scene, view: View, mode: Mode) -> None:
     """Write a scene's axis names, labels and marks over a picture's cells."""
     columns, rows, look = sheet.columns, sheet.rows, CELLS_OF_MODE[mode]
     if scene.axes and columns >= MIN_SCALE_BAR_COLUMNS and rows >= MIN_SCALE_BAR_ROWS:
@@ -79,10 +79,10 @@ def scale_bar(scale: float, columns: int, unit: Unit, ends: str) -> str:
     return f"{ends[0]}{ends[1] * (width - 1)}{ends[2]} {length:.{decimals}f} {unit}"
 
 
-def round_length(most: float) -> tuple[float, int]:
-    """Return the largest of 1, 2, 5 times a power of ten that is not above `most`, and the decimals to write it."""
-    power = floor(log10(most))
-    length = next(step * 10.0**power for step in (5, 2, 1) if step * 10.0**power <= most * (1 + 1e-9))
+def round_length(limit: float) -> tuple[float, int]:
+    """Return the largest of 1, 2, 5 times a power of ten that is not above `limit`, and the decimals that show it."""
+    power = floor(log10(limit))
+    length = next(step * 10.0**power for step in (5, 2, 1) if step * 10.0**power <= limit * (1 + 1e-9))
     return length, max(-power, 0)
 
 

@@ -18,7 +18,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from core.draw.areas import inside
-from core.draw.characters import CELLS_OF_MODE, Cells, CellSheet, Mode, write_signs
+from core.draw.characters import CELLS_OF_MODE, Cells, CellSheet, Mode, write_marks_and_labels
 from core.draw.scene import DOTTED_STYLES, MAX_DRAWN_COORDINATE, Area, Layer, Scene, Style
 from core.draw.view import CELL_HEIGHT, View
 from core.geometry.path import Flags, Floats, Points, Rows, Turns, as_complex
@@ -155,14 +155,14 @@ def _visible(arcs: _Pieces, reach: float) -> tuple[_Pieces, Floats, Floats]:
     within = reach * reach - (distance - radii) ** 2
     part = np.minimum(np.maximum(within / np.maximum(4.0 * distance * radii, MIN_CONCENTRIC_DIVISOR), 0.0), 1.0)
     inside = distance + radii <= reach
-    whole, hidden = (part >= 1.0) | inside, (within <= 0.0) & ~inside
+    all_visible, hidden = (part >= 1.0) | inside, (within <= 0.0) & ~inside
     half = 2.0 * np.arcsin(np.sqrt(part))
     middle = np.mod((np.angle(-arcs.centers) - _begin(arcs)) * arcs.turns, tau)
     turned = np.array([[-tau], [0.0], [tau]])
     low = np.maximum(middle - half + turned, 0.0)
     high = np.minimum(middle + half + turned, sweeps)
-    low[:, whole], high[:, whole | hidden] = 0.0, 0.0
-    high[1] = np.where(whole & ~hidden, sweeps, high[1])
+    low[:, all_visible], high[:, all_visible | hidden] = 0.0, 0.0
+    high[1] = np.where(all_visible & ~hidden, sweeps, high[1])
     row, arc = np.nonzero(high > low)
     return arcs.only(arc), low[row, arc], (high - low)[row, arc]
 
@@ -224,7 +224,7 @@ def draw(scene: Scene, view: View, columns: int, rows: int, mode: Mode) -> Pictu
             shaded = dots >> 3
             characters[shaded[codes[shaded] == 0]] = SHADE_CHARACTERS[style]
     sheet = CellSheet(columns, rows, characters.tolist(), bytearray(styles))
-    write_signs(sheet, scene, view, mode)
+    write_marks_and_labels(sheet, scene, view, mode)
     text = "".join(sheet.characters)
     lines = tuple(text[first : first + columns] for first in range(0, len(text), columns))
     return Picture(lines, np.frombuffer(sheet.styles, np.uint8).reshape(rows, columns))
@@ -232,15 +232,15 @@ def draw(scene: Scene, view: View, columns: int, rows: int, mode: Mode) -> Pictu
 
 def _axes(view: View, look: Cells, columns: int, rows: int) -> Rows:
     """Return the bits that the X axis, left to right, and the Y axis, top to bottom, light inside the window."""
-    (x, y), limit, (wide, high) = view.center, MAX_DRAWN_COORDINATE / view.scale, look.dot
-    across, up, half_width, half_height = -x / view.scale, -y / view.scale, columns / 2, rows * CELL_HEIGHT / 2
+    (x, y), limit, (dot_width, dot_height) = view.center, MAX_DRAWN_COORDINATE / view.scale, look.dot
+    axis_x, axis_y, half_width, half_height = -x / view.scale, -y / view.scale, columns / 2, rows * CELL_HEIGHT / 2
     axes: list[tuple[complex, complex]] = []
-    if abs(up) <= half_height and max(half_width, abs(up)) <= limit:
-        level = int((half_height - up) / high + DOT_SHIFT)
-        axes.append((complex(-half_width, half_height - (level + 0.5) * high), complex(2.0 * half_width, 0.0)))
-    if abs(across) <= half_width and max(half_height, abs(across)) <= limit:
-        upright = int((across + half_width) / wide + DOT_SHIFT)
-        axes.append((complex((upright + 0.5) * wide - half_width, half_height), complex(0.0, -2.0 * half_height)))
+    if abs(axis_y) <= half_height and max(half_width, abs(axis_y)) <= limit:
+        level = int((half_height - axis_y) / dot_height + DOT_SHIFT)
+        axes.append((complex(-half_width, half_height - (level + 0.5) * dot_height), complex(2.0 * half_width, 0.0)))
+    if abs(axis_x) <= half_width and max(half_height, abs(axis_x)) <= limit:
+        upright = int((axis_x + half_width) / dot_width + DOT_SHIFT)
+        axes.append((complex((upright + 0.5) * dot_width - half_width, half_height), complex(0.0, -2.0 * half_height)))
     starts, runs = np.array(axes, np.complex128).reshape(-1, 2).T
     lines = Chords(starts, runs, np.zeros(len(axes), np.intp), np.zeros(len(axes)))
     chord, part, bits = _dots(lines, look, columns, rows)
@@ -252,7 +252,7 @@ def _clipped(lines: Chords, half_width: float, half_height: float) -> Chords:
     starts, run = lines.starts, lines.runs
     enter, leave = np.zeros(len(run)), np.ones(len(run))
     for start, step, limit in ((starts.real, run.real, half_width), (starts.imag, run.imag, half_height)):
-        low, high = _between(start, step, limit)
+        low, high = _interval_inside(start, step, limit)
         np.maximum(enter, low, out=enter)
         np.minimum(leave, high, out=leave)
     keep = (enter <= leave).nonzero()[0]
@@ -262,16 +262,16 @@ def _clipped(lines: Chords, half_width: float, half_height: float) -> Chords:
     return Chords(starts, ends - starts, lines.layers[keep], along)
 
 
-def _between(start: Floats, step: Floats, limit: float) -> tuple[Floats, Floats]:
+def _interval_inside(start: Floats, step: Floats, limit: float) -> tuple[Floats, Floats]:
     """Return the interval of t in which start + t * step is in -limit ... limit; from infinity on if never."""
     with np.errstate(divide="ignore", invalid="ignore"):
         first, second = (-limit - start) / step, (limit - start) / step
     low, high = np.minimum(first, second), np.maximum(first, second)
-    still = step == 0.0
-    if still.any():
+    constant = step == 0.0
+    if constant.any():
         inside = np.abs(start) <= limit
-        low = np.where(still, np.where(inside, -np.inf, np.inf), low)
-        high = np.where(still, np.inf, high)
+        low = np.where(constant, np.where(inside, -np.inf, np.inf), low)
+        high = np.where(constant, np.inf, high)
     return low, high
 
 
@@ -280,23 +280,23 @@ def _thickened(lines: Chords, layers: Sequence[Layer], look: Cells) -> Chords:
     if not look.fine:
         return lines
     thick = np.array([layer.style in THICK_STYLES for layer in layers], np.bool_)
-    again = lines.only(thick[lines.layers].nonzero()[0]) if len(layers) else lines
+    thick_chords = lines.only(thick[lines.layers].nonzero()[0]) if len(layers) else lines
     wide, high = look.dot
-    copies = (again._replace(starts=again.starts + off) for off in (wide, -1j * high))
-    every = Chords._make(map(np.concatenate, zip(lines, *copies, strict=True)))
-    return every.only(every.layers.argsort(kind="stable"))
+    copies = (thick_chords._replace(starts=thick_chords.starts + shift) for shift in (wide, -1j * high))
+    all_chords = Chords._make(map(np.concatenate, zip(lines, *copies, strict=True)))
+    return all_chords.only(all_chords.layers.argsort(kind="stable"))
 
 
 def _shaded(area: Area, view: View, look: Cells, columns: int, rows: int) -> Rows:
     """Return the bits of dots to light in an area: with fine dots every other one of a gouge, every fourth if uncut."""
-    (wide, high), dense = look.dot, area.style is Style.GOUGE_AREA
+    (dot_width, dot_height), dense = look.dot, area.style is Style.GOUGE_AREA
     down, across = np.divmod(np.arange(rows * look.down * columns * look.across), columns * look.across)
     spread = (down + across) % (2 if look.by_dot else 1) == 0
     if look.fine and not dense:
         spread = (across % 2 == 0) & ((down + across // 2) % 2 == 0)
     (x, y), half_width, half_height = view.center, columns / 2, rows * CELL_HEIGHT / 2
-    along = x + ((across[spread] + 0.5) * wide - half_width) * view.scale
-    up = y + (half_height - (down[spread] + 0.5) * high) * view.scale
+    along = x + ((across[spread] + 0.5) * dot_width - half_width) * view.scale
+    up = y + (half_height - (down[spread] + 0.5) * dot_height) * view.scale
     bits: Rows = _bits(look, columns, rows)[spread][inside(area.region, along, up)]
     return bits
 
@@ -343,16 +343,19 @@ def _bits(look: Cells, columns: int, rows: int) -> Rows:
 
 def _dots(lines: Chords, look: Cells, columns: int, rows: int) -> tuple[Rows, Floats, Rows]:
     """Return each dot's chord, the fraction of the chord before the dot and the bit to light (m,), by chord."""
-    (wide, high), start, run = look.dot, lines.starts, lines.runs
-    x, y = (start.real + columns / 2) / wide + DOT_SHIFT, (rows * CELL_HEIGHT / 2 - start.imag) / high + DOT_SHIFT
-    over, under = run.real / wide, run.imag / -high
-    steps = np.ceil(np.maximum(np.abs(over), np.abs(under))).astype(np.intp)
+    (dot_width, dot_height), start, run = look.dot, lines.starts, lines.runs
+    x, y = (
+        (start.real + columns / 2) / dot_width + DOT_SHIFT,
+        (rows * CELL_HEIGHT / 2 - start.imag) / dot_height + DOT_SHIFT,
+    )
+    dots_across, dots_down = run.real / dot_width, run.imag / -dot_height
+    steps = np.ceil(np.maximum(np.abs(dots_across), np.abs(dots_down))).astype(np.intp)
     counts = steps + 1
     chord = np.arange(len(counts)).repeat(counts)
     nth = np.arange(len(chord)) - (counts.cumsum() - counts)[chord]
     part = nth * (1.0 / np.maximum(steps, 1))[chord]
-    across = (x[chord] + part * over[chord]).astype(np.intp)
-    down = (y[chord] + part * under[chord]).astype(np.intp)
+    across = (x[chord] + part * dots_across[chord]).astype(np.intp)
+    down = (y[chord] + part * dots_down[chord]).astype(np.intp)
     width, height = columns * look.across, rows * look.down
     across, down = np.minimum(across, width - 1), np.minimum(down, height - 1)
     dot = np.maximum(down, 0) * width + np.maximum(across, 0)

@@ -145,11 +145,11 @@ class Scene:
     def bounds(self) -> Box | None:
         """Least x, least y, largest x, largest y of everything that can be drawn; None for an empty scene."""
         marks = [(x, y, x, y) for (x, y), *_ in self.marks]
-        return _around([*self._boxes(()), np.array(marks, float).reshape(-1, 4)])
+        return _box_around([*self._boxes(()), np.array(marks, float).reshape(-1, 4)])
 
     def extent(self, without: Container[Style] = ()) -> Box | None:
         """Return the bounds of circles and layers only, except layers in the styles `without`."""
-        return _around(self._boxes(without))
+        return _box_around(self._boxes(without))
 
     def _boxes(self, without: Container[Style]) -> list[Floats]:
         layers = [*(layer for layer in self.layers if layer.style not in without), *map(_outline, self.circles)]
@@ -164,7 +164,7 @@ def _outline(circle: Circle) -> Layer:
     return Layer(Path(rim, np.array([[x, y]], float), np.ones(1, np.int8), np.ones(1)), circle.style)
 
 
-def _around(boxes: Sequence[Floats]) -> Box | None:
+def _box_around(boxes: Sequence[Floats]) -> Box | None:
     """Return the box around all boxes (n, 4) that can be drawn."""
     rows = np.concatenate([np.empty((0, 4)), *boxes])
     # comparisons with NaN are false
@@ -216,12 +216,12 @@ def contour_scene(
     cursor; `start` the contour's START.
     """
     # deleted segments have a line of their own
-    gone = deleted.path.numbers[deleted.in_part]
-    left_uncut = PathParts(uncut.path, uncut.in_part & ~np.isin(uncut.path.numbers, gone))
+    deleted_numbers = deleted.path.numbers[deleted.in_part]
+    left_uncut = PathParts(uncut.path, uncut.in_part & ~np.isin(uncut.path.numbers, deleted_numbers))
     layers = (
         *_parts(untaken, Style.UNTAKEN, dashed=True),
         *_parts(sketches, Style.SURFACE, dashed=True),
-        *_parts(PathParts(surface, ~np.isin(surface.numbers, gone)), Style.SURFACE),
+        *_parts(PathParts(surface, ~np.isin(surface.numbers, deleted_numbers)), Style.SURFACE),
         *_layers(rough, Style.RAPID, dashed=True),
         *_layers(leads, Style.LEAD),
         *_parts(over_run, Style.LEAD),
@@ -231,8 +231,8 @@ def contour_scene(
         *_layers((current or EMPTY,), Style.CURRENT),
     )
     marks = (
-        *_travel(path if len(path) else surface),
-        *_plunge(leads, path),
+        *_travel_arrow(path if len(path) else surface),
+        *_plunge_mark(leads, path),
         *(Mark(at, Style.START, Symbol.START) for at in (start,) if at is not None),
         *(Mark(at, Style.DELETED, Symbol.DELETED) for at in meetings),
         *(Mark(at, Style.GOUGE, Symbol.GOUGE) for at in gouges),
@@ -249,7 +249,7 @@ def _parts(parts: PathParts, style: Style, *, dashed: bool = False) -> Iterator[
         yield Layer(parts.path, style, dashed, parts.in_part)
 
 
-def _travel(path: Path) -> Iterator[Mark]:
+def _travel_arrow(path: Path) -> Iterator[Mark]:
     """Yield an arrow in the middle of the path's first piece with a length."""
     first = next((piece for piece in path if piece.length > 0.0), None)
     if first is not None:
@@ -264,7 +264,7 @@ def direction_at_middle(piece: Piece) -> Point:
     return (piece.center[1] - y) * int(piece.turn), (x - piece.center[0]) * int(piece.turn)
 
 
-def _plunge(leads: Sequence[Path], path: Path) -> Iterator[Mark]:
+def _plunge_mark(leads: Sequence[Path], path: Path) -> Iterator[Mark]:
     """Yield the mark where the cutter plunges: the start of the first lead, or of the path."""
     first = next((lead for lead in leads if len(lead)), path)
     if len(first):

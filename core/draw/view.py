@@ -33,13 +33,13 @@ class View:
     def fit(bounds: Box | None, columns: int, rows: int) -> View:
         """Return the largest view of `bounds` in columns x rows cells, with a margin; None gives a view around zero."""
         x0, y0, x1, y1 = bounds or (-1.0, -1.0, 1.0, 1.0)
-        wide, high = max(columns, 1) * (1 - 2 * MARGIN_SHARE), max(rows, 1) * CELL_HEIGHT * (1 - 2 * MARGIN_SHARE)
-        scale = max((x1 - x0) / wide, (y1 - y0) / high)
-        return View(((x0 + x1) / 2, (y0 + y1) / 2), _held(scale) if scale > 0.0 else 2.0 / wide)
+        width, height = max(columns, 1) * (1 - 2 * MARGIN_SHARE), max(rows, 1) * CELL_HEIGHT * (1 - 2 * MARGIN_SHARE)
+        scale = max((x1 - x0) / width, (y1 - y0) / height)
+        return View(((x0 + x1) / 2, (y0 + y1) / 2), _limited_scale(scale) if scale > 0.0 else 2.0 / width)
 
     def zoom(self, factor: float, about: Point | None = None) -> View:
         """Return the view enlarged by `factor` about a point (mm), else the window's center, within sensible limits."""
-        scale = _held(self.scale / factor)
+        scale = _limited_scale(self.scale / factor)
         if about is None:
             return View(self.center, scale)
         (x, y), part = self.center, 1.0 - scale / self.scale
@@ -50,20 +50,20 @@ class View:
         x, y = self.center
         return View((x + dx * columns * self.scale, y + dy * rows * CELL_HEIGHT * self.scale), self.scale)
 
-    def over(self, point: Point, bounds: Box, columns: int, rows: int) -> View:
+    def centered_on(self, point: Point, bounds: Box, columns: int, rows: int) -> View:
         """Return the view centered on a point (mm), but no farther beyond `bounds` than a seventh of the window."""
         half = columns * self.scale / 2, rows * CELL_HEIGHT * self.scale / 2
         x, y = (
-            _slid(value, low, high, room)
+            _limited_center(value, low, high, room)
             for value, low, high, room in zip(point, bounds[:2], bounds[2:], half, strict=True)
         )
         return View((x, y), self.scale)
 
-    def touches(self, bounds: Box, times: float) -> bool:
+    def is_near(self, bounds: Box, times: float) -> bool:
         """True if the window's center is within `times` the larger side of `bounds` from its center, in X and in Y."""
         (x, y), (x0, y0, x1, y1) = self.center, bounds
-        far = times * max(x1 - x0, y1 - y0, FINEST_SCALE)
-        return abs(x - (x0 + x1) / 2) <= far and abs(y - (y0 + y1) / 2) <= far
+        limit = times * max(x1 - x0, y1 - y0, FINEST_SCALE)
+        return abs(x - (x0 + x1) / 2) <= limit and abs(y - (y0 + y1) / 2) <= limit
 
     def at(self, column: float, row: float, columns: int, rows: int) -> Point:
         """Return the point (mm) at a position in the window: (0, 0) is top left, (0.5, 0.5) the first cell's middle."""
@@ -76,11 +76,11 @@ class View:
         return (px - x) / self.scale + columns / 2, (y - py) / (CELL_HEIGHT * self.scale) + rows / 2
 
 
-def _slid(value: float, low: float, high: float, room: float) -> float:
-    """Return a window's middle, `room` from its edges, moved so that little beyond low and high is visible."""
-    first, last = low + room * (1.0 - 2.0 * BEYOND_PART), high - room * (1.0 - 2.0 * BEYOND_PART)
+def _limited_center(value: float, low: float, high: float, half_window: float) -> float:
+    """Return a window's middle, `half_window` from its edges, moved so that little beyond low and high is visible."""
+    first, last = low + half_window * (1.0 - 2.0 * BEYOND_PART), high - half_window * (1.0 - 2.0 * BEYOND_PART)
     return min(max(value, min(first, last)), max(first, last))
 
 
-def _held(scale: float) -> float:
+def _limited_scale(scale: float) -> float:
     return min(max(scale, FINEST_SCALE), COARSEST_SCALE)

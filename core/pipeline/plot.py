@@ -196,7 +196,7 @@ def _view_of(subject: Subject, bounds: Box, columns: int, rows: int) -> View:
     if subject.near is None or not subject.block.radius:
         return whole
     loupe = View(subject.near, LOUPE_HEIGHT_RADII * subject.block.radius / (rows * CELL_HEIGHT))
-    return whole if loupe.scale >= whole.scale else loupe.over(subject.near, bounds, columns, rows)
+    return whole if loupe.scale >= whole.scale else loupe.centered_on(subject.near, bounds, columns, rows)
 
 
 def _outlined(scene: Scene, subject: Subject) -> Scene:

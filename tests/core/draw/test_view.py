@@ -42,11 +42,11 @@ def test_pan_moves_by_parts_of_the_window():
 )
 def test_a_view_over_a_point_shows_little_beyond_the_part(point, center):
     """The window is 20 wide and high; a seventh of it, 20 / 7, may lie outside of the part."""
-    view = View((1.0, 2.0), 1.0).over(point, (0.0, 0.0, 100.0, 100.0), 20, 10)
+    view = View((1.0, 2.0), 1.0).centered_on(point, (0.0, 0.0, 100.0, 100.0), 20, 10)
     assert view.center == pytest.approx(center)
     assert view.scale == 1.0
     # a part that the window shows whole need not be in its middle
-    assert view.over((3.0, 4.0), (0.0, 0.0, 10.0, 4.0), 40, 40).center == (3.0, 4.0)
+    assert view.centered_on((3.0, 4.0), (0.0, 0.0, 10.0, 4.0), 40, 40).center == (3.0, 4.0)
 
 
 def test_zoom_keeps_the_center_and_stays_within_limits():
@@ -103,6 +103,6 @@ def test_bounds_can_do_without_some_layers_and_reach_as_far_as_their_arcs():
 
 def test_a_view_that_was_moved_off_the_part_no_longer_touches_it() -> None:
     bounds = (100.0, 50.0, 110.0, 54.0)
-    assert View((125.0, 52.0), 1.0).touches(bounds, 2.0)
-    assert not View((126.0, 52.0), 1.0).touches(bounds, 2.0)
-    assert not View((105.0, 73.0), 1.0).touches(bounds, 2.0)
+    assert View((125.0, 52.0), 1.0).is_near(bounds, 2.0)
+    assert not View((126.0, 52.0), 1.0).is_near(bounds, 2.0)
+    assert not View((105.0, 73.0), 1.0).is_near(bounds, 2.0)
