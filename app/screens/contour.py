@@ -67,6 +67,8 @@ NEW_SEGMENTS: Final[dict[str, type[Segment]]] = {
     "c": ChamferSegment,
 }
 """The letters that add a new segment, or change the kind of one that is still empty."""
+LETTER_FIELDS: Final = ("x_end", "y_end", "radius", "length")
+"""The number fields of an empty segment that take those letters."""
 KINDS_PROMPT: Final = "L LINE, A ARC, B BLEND ARC, C CHAMFER"
 LATER_PROMPT: Final = "Or Page Down: the next segment may give it."
 CLOSED_PROMPT: Final = "The contour is closed. F8 leaves it; right arrow adds a segment."
@@ -220,13 +222,11 @@ class ContourScreen(BlockActions, FormScreen):
         self.refresh_frame()
 
     def _offer_letters(self, session: Session) -> None:
-        """Let letters in X END and Y END change the kind of an empty LINE."""
-        letters = (
-            "".join(NEW_SEGMENTS) if isinstance(session.segment, LineSegment) and edit.is_empty(session.segment) else ""
-        )
-        for name in ("x_end", "y_end"):
+        """Let letters in the first numbers of an empty segment change its kind."""
+        empty = session.segment is not None and edit.is_empty(session.segment)
+        for name in LETTER_FIELDS:
             if isinstance(field := self.form().field(name), NumberField):
-                field.letters = letters
+                field.letters = "".join(NEW_SEGMENTS) if empty else ""
 
     def _show_titles(self, session: Session) -> None:
         last, segment = len(session.block.segments), session.place.segment
@@ -547,6 +547,8 @@ class ContourScreen(BlockActions, FormScreen):
             widget = self.current
             if isinstance(widget, NumberField) and not widget.edited:
                 return Sentence(f"{field.prompt} Or: {KINDS_PROMPT.partition(', ')[2]}.")
+        if field is not None and field.name == "direction" and segment is not None and edit.is_empty(segment):
+            return Sentence(f"{super().prompt_text().text} Or: L LINE, B BLEND ARC.")
         if isinstance(self.current, SegmentField):
             prompt = SEGMENT_PROMPT if self.current_session.block.segments else FIRST_SEGMENT
             return self._run_sentence("Right arrow: next segment. ENTER: edit this one.") or Sentence(prompt)
@@ -600,21 +602,27 @@ class ContourScreen(BlockActions, FormScreen):
         may_follow = stop is not None and run_lacks(session)
         if session.program is not before and run_stops(session) and not may_follow:
             return
-        if session.program is not before and widget.name in DEPTH_FIELDS and self._say_depth():
+        if session.program is not before and widget.name in DEPTH_FIELDS and self._no_depth():
+            # after a new Z START the old Z BOTTOM is the one to be corrected
+            self.focus_field("z_bottom")
+            self._say_depth()
             return
         if stop is not None:
             self.focus_field(stop)
         else:
             self._form_done()
 
-    def _say_depth(self) -> bool:
-        """Say that Z BOTTOM is not below Z START; False if it is."""
-        session = self.current_session
-        finding = next((each for each in session.derived_block.findings if each.code == "Z_ORDER"), None)
+    def _no_depth(self) -> Finding | None:
+        """Return the finding that Z BOTTOM is not below Z START; None if it is."""
+        findings = self.current_session.derived_block.findings
+        return next((each for each in findings if each.code == "Z_ORDER"), None)
+
+    def _say_depth(self) -> None:
+        """Say that Z BOTTOM is not below Z START."""
+        finding = self._no_depth()
         if finding is not None:
             tone = Tone.ERROR if finding.severity is Severity.ERROR else Tone.WARNING
-            self.say(sentence(finding, session.program.unit), tone)
-        return finding is not None
+            self.say(sentence(finding, self.current_session.program.unit), tone)
 
     def _form_done(self) -> None:
         """After a form's last field, go back to a field that still needs an answer, else to the next segment."""
@@ -675,7 +683,19 @@ class ContourScreen(BlockActions, FormScreen):
     @on(NumberField.Letter)
     def _letter(self, message: NumberField.Letter) -> None:
         """Change the kind of an empty segment; after any other, insert a new segment of that kind."""
-        session, kind = self.current_session, NEW_SEGMENTS[message.letter]
+        self._take_kind(NEW_SEGMENTS[message.letter])
+
+    def refuse_choice(self, typed: str) -> None:
+        """Take a letter that is no DIRECTION for another kind of an empty ARC; else say that it is no choice."""
+        segment, field, kind = self.current_session.segment, self.current_field, NEW_SEGMENTS.get(typed.lower())
+        at_direction = field is not None and field.name == "direction"
+        if kind is None or segment is None or not edit.is_empty(segment) or not at_direction:
+            super().refuse_choice(typed)
+        elif not isinstance(segment, kind):
+            self._take_kind(kind)
+
+    def _take_kind(self, kind: type[Segment]) -> None:
+        session = self.current_session
         segment = session.segment
         if segment is None or not edit.is_empty(segment):
             self._insert(session.place.segment + 1, kind())

@@ -214,9 +214,10 @@ class FormScreen(BaseScreen):
 
     @on(ChoiceField.Unknown)
     def _no_choice(self, event: ChoiceField.Unknown) -> None:
-        self._refuse_choice(event.typed)
+        self.refuse_choice(event.typed)
 
-    def _refuse_choice(self, typed: str) -> None:
+    def refuse_choice(self, typed: str) -> None:
+        """Say that what was typed is no choice."""
         self.say(f"{printable(typed)} is not a choice. Left and right change it.", Tone.ERROR)
 
     # ---- keys
@@ -232,7 +233,7 @@ class FormScreen(BaseScreen):
         """Take the field and go on; stay once on a choice if what was typed there is no choice."""
         widget = self.current
         if isinstance(widget, ChoiceField) and widget.refused:
-            self._refuse_choice(widget.refused)
+            self.refuse_choice(widget.refused)
             widget.refused = ""
         else:
             self.action_accept()

@@ -11,7 +11,7 @@ from textual.events import AppBlur, AppFocus
 from textual.widgets import DataTable, OptionList
 
 from app.screens.block_actions import depths_kept
-from app.screens.contour import ContourScreen
+from app.screens.contour import NEW_SEGMENTS, ContourScreen
 from app.screens.dialogs import Question
 from app.screens.lookahead import LookaheadScreen
 from app.screens.palette import Palette
@@ -23,7 +23,7 @@ from app.widgets.findings_list import FindingsList
 from app.widgets.verdict import Verdict
 from core.pipeline.derived import Derived
 from core.program.edit import FormPlace
-from core.program.model import LineSegment, Number, Program, Unread
+from core.program.model import ArcSegment, BlendSegment, LineSegment, Number, Program, Unread
 from tests.app.widget_pilot import Operator, operator
 
 pytestmark = pytest.mark.asyncio(loop_scope="module")
@@ -299,6 +299,26 @@ async def test_the_letters_a_message_offers_work(user: Operator):
     assert "L LINE" in user.prompt
     await user.press("l")
     assert isinstance(user.session.segment, LineSegment)
+
+
+async def test_a_letter_leads_back_from_every_empty_kind_of_segment(user: Operator):
+    await user.begin("notch")
+    await user.press("ctrl+end", "pagedown")
+    for letter, field in (("a", "direction"), ("l", "x_end"), ("b", "radius"), ("c", "length"), ("l", "x_end")):
+        await user.press(letter)
+        assert type(user.session.segment) is NEW_SEGMENTS[letter]
+        assert user.at == field
+    await user.press("a", "b")
+    assert isinstance(user.session.segment, BlendSegment)
+    await user.press("a")
+    assert "Or: L LINE, B BLEND ARC." in user.prompt
+    await user.press("x")
+    assert user.prompt == "X is not a choice. Left and right change it."
+    await user.press("right")
+    assert isinstance(user.session.segment, ArcSegment)
+    await user.press("l")
+    assert isinstance(user.session.segment, ArcSegment), "a DIRECTION has been chosen: the segment is not empty"
+    assert user.prompt == "L is not a choice. Left and right change it."
 
 
 async def test_the_field_with_the_cursor_scrolls_into_view_on_a_tiny_terminal():

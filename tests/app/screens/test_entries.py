@@ -132,6 +132,16 @@ async def test_enter_stays_once_on_a_z_bottom_that_is_not_below_z_start(user: Op
         assert user.prompt != "Z BOTTOM is at Z START: nothing is cut."
 
 
+async def test_enter_goes_from_a_new_z_start_to_a_z_bottom_above_it(user: Operator):
+    """The next number typed is Z BOTTOM, which is to be corrected."""
+    await user.begin("pocket", 0, "z_start")
+    await user.press("'-1", "enter")
+    assert user.at == "z_bottom"
+    assert user.prompt == "Z BOTTOM -0.2500 is above Z START -1.0000: it must be below."
+    await user.press("'-1.5", "enter")
+    assert user.session.block.z_bottom == Number(-1.5)
+
+
 async def test_the_only_block_cannot_be_deleted(user: Operator):
     await user.press("f8", "f1")
     assert len(user.session.program.blocks) == 1
