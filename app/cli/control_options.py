@@ -9,7 +9,7 @@ from app.cli.shell import Unusable
 from app.documents.files import read_file, why
 from app.documents.nc_text import MAX_NC_BYTES
 from app.documents.paths import printable_path
-from core.controls.control_tools import CutterTool, ToolTable, read_table, tool_id
+from core.controls.control_tools import CutterTool, ToolTable, read_table, table_of, tool_id
 from core.controls.program_text import quoted
 from core.program.tools import table_faults
 from core.units import Kind, Unit, Unreadable, parse
@@ -54,7 +54,7 @@ def unit_of(options: argparse.Namespace) -> Unit | None:
 
 def tools_of(options: argparse.Namespace) -> ToolTable:
     """Return the tools that --tools and --tool name; raise Unusable if they cannot be read."""
-    table = ToolTable()
+    table: ToolTable = {}
     if options.tools is not None:
         table, findings = read_table(bytes_of(options.tools))
         if findings:
@@ -64,7 +64,7 @@ def tools_of(options: argparse.Namespace) -> ToolTable:
     twice = next((number for number in numbers if numbers.count(number) > 1), None)
     if twice is not None:
         raise Unusable(f"--tool: tool {twice} has two diameters. Keep one.")
-    return table.with_tools(ToolTable.of(*named))
+    return {**table, **table_of(*named)}
 
 
 def _tool(text: str) -> CutterTool:

@@ -145,20 +145,20 @@ def _check_request(request: RunRequest, control: str) -> CheckRequest:
 
 def tools_text(tools: ToolTable) -> str:
     """Return tools and diameters as one line, `1=0.5in 2=12.0mm "ROUGH D10"=10.0mm`."""
-    names = {each: f'"{each}"' if isinstance(each, str) else str(each) for each in tools.tools}
-    return " ".join(f"{names[each]}={tool.diameter!r}{tool.unit or ''}".lower() for each, tool in tools.tools.items())
+    names = {each: f'"{each}"' if isinstance(each, str) else str(each) for each in tools}
+    return " ".join(f"{names[each]}={tool.diameter!r}{tool.unit or ''}".lower() for each, tool in tools.items())
 
 
 def read_tools(text: str) -> ToolTable:
     """Read the tools from such a line; skip anything that is not a tool."""
     # imported here: this loads the controls, which the first paint must not
-    from core.controls.control_tools import CutterTool, ToolTable, tool_id
+    from core.controls.control_tools import CutterTool, table_of, tool_id
 
     tools = []
     for number, name, diameter, unit in _REMEMBERED.findall(text):
         with suppress(ValueError):
             tools.append(CutterTool(tool_id(number or name), float(diameter), unit=Unit(unit.upper())))
-    return ToolTable.of(*tools)
+    return table_of(*tools)
 
 
 def likely_control(text: NcText, usual: str) -> str:
@@ -180,17 +180,17 @@ def likely_control(text: NcText, usual: str) -> str:
 
 def header_tools(text: NcText) -> ToolTable:
     """Return the tools and offsets that the header of a program posted by cutcomp tells the operator to enter."""
-    from core.controls.control_tools import CutterTool, ToolTable
+    from core.controls.control_tools import CutterTool, table_of
 
     head = _head(text)
     unit = _HEADER_UNIT.search(head)
     if unit is None or not _WRITTEN_FOR.search(head):
-        return ToolTable()
+        return {}
     sizes = [(int(number), float(diameter)) for number, diameter in _HEADER_TOOL.findall(head)]
     # an offset has the number and the radius that the control uses, whatever the tool's number is
     sizes += [(int(number), 2.0 * float(radius)) for number, radius in _HEADER_OFFSET.findall(head)]
     units = Unit.IN if unit[1] == "INCH" else Unit.MM
-    return ToolTable.of(*(CutterTool(number, diameter, unit=units) for number, diameter in dict(sizes).items()))
+    return table_of(*(CutterTool(number, diameter, unit=units) for number, diameter in dict(sizes).items()))
 
 
 def _head(text: NcText) -> str:

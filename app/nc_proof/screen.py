@@ -112,12 +112,12 @@ class ProofScreen(BaseScreen):
         """The tools typed for this program, now or in an earlier session."""
         self.tools_in_header = runs.header_tools(text)
         """The tools that the header of a program posted by cutcomp names."""
-        self.request = RunRequest(text, control, self.tools_in_header.with_tools(self.typed_tools), folder=folder)
+        self.request = RunRequest(text, control, {**self.tools_in_header, **self.typed_tools}, folder=folder)
         self.tool = runs.first_tool(text)
         if check_request is not None:
-            tools = self.request.tools.with_tools(check_request.tools)
+            tools = {**self.request.tools, **check_request.tools}
             self.request = RunRequest(text, check_request.control or control, tools, check_request.unit, folder)
-            self.tool = next(iter(check_request.tools.tools), self.tool)
+            self.tool = next(iter(check_request.tools), self.tool)
         self.result: Result | None = None
         self.dotted_control = ""
         """The other control whose path is drawn dotted; empty for none."""
@@ -151,9 +151,9 @@ class ProofScreen(BaseScreen):
         if opened is not None:
             self.say(opened.text, opened.tone)
         before = "" if opened is None else f"{opened.text.removesuffix('.')}. "
-        if any(tool is self.request.tools.get(number) for number, tool in self.typed_tools.tools.items()):
+        if any(tool is self.request.tools.get(number) for number, tool in self.typed_tools.items()):
             self.say(f"{before}It has the tools that you gave it last time.")
-        elif self.tools_in_header.tools and self.request.tools.tools == self.tools_in_header.tools:
+        elif self.tools_in_header and self.request.tools == self.tools_in_header:
             self.say(f"{before}It has the tools that its header names.")
 
     # ---- the text
@@ -370,7 +370,7 @@ class ProofScreen(BaseScreen):
         return Unit.IN if self.result is None else self.result.answer.unit
 
     def _show_titles(self) -> None:
-        tools = "  ".join(map(self._shown_tool, self.request.tools.tools.values()))
+        tools = "  ".join(map(self._shown_tool, self.request.tools.values()))
         dotted = f", dotted {display_name(self.dotted_control)}" if self.dotted_control else ""
         self.query_one("#proof-control", Label).update(f"{display_name(self.request.control)}{dotted}")
         # an alarm for want of a tool says so itself, and needs the room
@@ -614,12 +614,14 @@ class ProofScreen(BaseScreen):
         if isinstance(typed, CutterTool):
             self._with_tool(typed)
         elif not isinstance(typed, Unreadable):
-            self._with_tools(self.typed_tools.without(typed), self.request.tools.without(typed))
+            tables = (self.typed_tools, self.request.tools)
+            typed_tools, tools = ({each: tool for each, tool in table.items() if each != typed} for table in tables)
+            self._with_tools(typed_tools, tools)
             self.say(f"Tool {typed} has no diameter any more.")
 
     def _with_tool(self, tool: CutterTool) -> None:
-        self.tool, typed = tool.number, ToolTable.of(tool)
-        self._with_tools(self.typed_tools.with_tools(typed), self.request.tools.with_tools(typed))
+        self.tool = tool.number
+        self._with_tools({**self.typed_tools, tool.number: tool}, {**self.request.tools, tool.number: tool})
         self.say(f"Tool {tool.number}: diameter {tool.diameter:g} {tool.unit or self.unit}.")
 
     def _with_tools(self, typed_tools: ToolTable, tools: ToolTable) -> None:

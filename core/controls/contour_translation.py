@@ -58,7 +58,8 @@ def translate_contours(source: ControlRun, control: str) -> TranslatedProgram | 
         sources += stretch.programmed.lines[1:].tolist()
         runs.append(run_led)
     if style is None:
-        lines, tools, decimals = write_klartext_contours(runs, unit), ToolTable(), KLARTEXT_DECIMALS[unit]
+        lines, decimals = write_klartext_contours(runs, unit), KLARTEXT_DECIMALS[unit]
+        tools: ToolTable = {}
     else:
         lines, decimals = write_iso(runs, style, Frame(unit)), style.digits(unit)
         tools = tools_of([run_led.contour_pass for run_led in runs], style)

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import re
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass, field, replace
+from dataclasses import dataclass
 from math import nan
 from typing import Final
 
@@ -48,32 +48,13 @@ class CutterTool:
         return to_mm(self.length, self.unit or program)
 
 
-@dataclass(frozen=True, eq=False, slots=True)
-class ToolTable:
-    """The tools a control knows, by number or name."""
+ToolTable = Mapping[ToolId, CutterTool]
+"""The tools a control knows, by number or name."""
 
-    tools: Mapping[ToolId, CutterTool] = field(default_factory=dict)
 
-    @staticmethod
-    def of(*tools: CutterTool) -> ToolTable:
-        """Return a table of these tools; a later one of the same number or name replaces an earlier one."""
-        return ToolTable({tool.number: tool for tool in tools})
-
-    def get(self, number: ToolId) -> CutterTool | None:
-        """Return the tool with a number or name; None if the table has none."""
-        return self.tools.get(number)
-
-    def with_tools(self, other: ToolTable) -> ToolTable:
-        """Return this table with another's tools added; those replace tools of the same number or name."""
-        return ToolTable({**self.tools, **other.tools})
-
-    def scaled(self, share: float) -> ToolTable:
-        """Return this table with a share of each tool's diameter."""
-        return ToolTable.of(*(replace(tool, diameter=share * tool.diameter) for tool in self.tools.values()))
-
-    def without(self, number: ToolId) -> ToolTable:
-        """Return this table without a tool."""
-        return ToolTable({each: tool for each, tool in self.tools.items() if each != number})
+def table_of(*tools: CutterTool) -> ToolTable:
+    """Return a table of these tools; a later one of the same number or name replaces an earlier one."""
+    return {tool.number: tool for tool in tools}
 
 
 @dataclass(frozen=True, slots=True)
@@ -177,4 +158,4 @@ def read_table(text: bytes, unit: Unit | None = None) -> tuple[ToolTable, tuple[
             words = line.words
             diameter, length, orientation = words.get("D", 0.0), words.get("Z", 0.0), int(words.get("Q", 0.0))
             tools.append(CutterTool(line.number, diameter, length, orientation, unit))
-    return ToolTable.of(*tools), tuple(findings)
+    return table_of(*tools), tuple(findings)

@@ -28,7 +28,7 @@ from core.finding import Finding, Severity
 from core.progress import Progress, silent
 from core.units import Unit
 
-NO_TOOLS: Final = ToolTable()
+NO_TOOLS: Final[ToolTable] = {}
 
 TINY_SHARE: Final = 1e-7
 """Share of the tool's radius that fits into every contour, so that the stretches are the whole contour."""
@@ -163,7 +163,8 @@ def _run(
     if entry.dialect is None or make is None:
         return klartext.run_klartext(text, tools, share, progress)
     dialect = replace(entry.dialect, unit=unit or entry.dialect.unit)
-    return run_iso(text, control, dialect, tools.scaled(share), make, library, progress)
+    scaled = {number: replace(tool, diameter=share * tool.diameter) for number, tool in tools.items()}
+    return run_iso(text, control, dialect, scaled, make, library, progress)
 
 
 def _with_rest_of_contour(stopped: ControlRun, whole: ControlRun) -> ControlRun:

@@ -178,7 +178,7 @@ def _complete(row: Answer, done: ControlRun, text: bytes, request: CheckRequest)
 
 def unusual_tools(tools: ToolTable, unit: Unit) -> tuple[Finding, ...]:
     """Return a warning on each tool whose diameter may be in the wrong unit, for a program in `unit`."""
-    named = ((number, tool.diameter_mm(unit)) for number, tool in tools.tools.items())
+    named = ((number, tool.diameter_mm(unit)) for number, tool in tools.items())
     doubts = ((number, unusual_size(f"Tool {number}", diameter, unit)) for number, diameter in named)
     # braces in a Klartext tool's name would be taken for placeholders of lengths
     return tuple(finding for number, finding in doubts if finding is not None and "{" not in str(number))
@@ -523,7 +523,7 @@ def largest_tool(
 
     def fits(tool: CutterTool, size: int) -> bool:
         diameter = step * size if tool.diameter > 0.0 else -step * size
-        trial = tools.with_tools(ToolTable.of(replace(tool, diameter=diameter, unit=done.unit)))
+        trial = {**tools, tool.number: replace(tool, diameter=diameter, unit=done.unit)}
         ran = run(text, done.control, trial, unit, library, progress=progress)
         if len(ran.moves) > MAX_MOVES or ran.stopped_at is not None:
             return False

@@ -14,7 +14,6 @@ import pytest
 from app.cli.check import check
 from app.documents.nc_library import called_program
 from core.controls.control_names import display_name
-from core.controls.control_tools import ToolTable
 from core.pipeline.checking import CheckRequest, answer_all
 
 NC = Path(__file__).parents[1] / "data" / "nc"
@@ -173,7 +172,7 @@ def test_no_tool_option_is_advised_when_every_tool_is_known(capsys: pytest.Captu
 
 def test_every_control_that_lacks_a_size_names_the_tool() -> None:
     text = b"G20 G90\nT3 M6\nG0 X0 Y0\nG1 F10.\nG41 D3 X1. Y0\nX3.\nY2.\nG40 X5. Y2.\nM2\n"
-    for answer in answer_all(text, CheckRequest("all", ToolTable(), shop=False, unit=None)):
+    for answer in answer_all(text, CheckRequest("all", {}, shop=False, unit=None)):
         assert answer.missing == (None if answer.control == "klartext" else 3), answer.control
 
 

@@ -507,7 +507,7 @@ class Machine(ModalState):
         tool = replace(tool, orientation=orientation)
         if "R" in block.words:
             tool = replace(tool, diameter=2.0 * block.words["R"], unit=self.unit)
-        self.tools = self.tools.with_tools(ToolTable.of(tool))
+        self.tools = {**self.tools, tool.number: tool}
 
     def _home(self, block: Block) -> None:
         """Run G28 or G30: move by way of the block's point to the reference point, taken as machine zero."""

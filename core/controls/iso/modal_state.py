@@ -220,7 +220,7 @@ class ModalState:
         diameter = old.diameter if data.diameter is None else data.diameter
         unit = old.unit if data.diameter is None else self.unit
         tool = CutterTool(data.number, diameter, old.length if data.length is None else data.length, 0, unit)
-        self.tools = self.tools.with_tools(ToolTable.of(tool))
+        self.tools = {**self.tools, tool.number: tool}
         if data.length is None and data.diameter is None:
             text = "This tool data sets neither length nor diameter; both stay as they are."
             self.log.inform("TOOL", text, block.at("T"))
@@ -229,8 +229,7 @@ class ModalState:
         self, why: str, place: Place, *, code: str = "RADIUS0", severity: Severity = Severity.WARNING
     ) -> None:
         """Report that nothing is compensated and how deep the tool cuts; `why` says what to do, or what is missing."""
-        tools = self.tools.tools
-        tool = tools.get(self.tool or (next(iter(tools)) if len(tools) == 1 else 0))
+        tool = self.tools.get(self.tool or (next(iter(self.tools)) if len(self.tools) == 1 else 0))
         cut, lengths = "a cutter cuts its own radius too deep", tuple[float, ...]()
         if tool is not None and tool.diameter != 0.0:
             diameter = abs(tool.diameter_mm(self.unit))

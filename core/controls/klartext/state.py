@@ -300,8 +300,8 @@ class State:
 
     def _take_only_tool(self, block: Block) -> None:
         """Without a TOOL CALL, take the table's tool if the table has only one."""
-        if len(self.tools.tools) == 1:
-            (tool,) = self.tools.tools.values()
+        if len(self.tools) == 1:
+            (tool,) = self.tools.values()
             self.tool, self.radius = str(tool.number), tool.diameter_mm(self.unit) / 2.0
             text = f"No TOOL CALL before this block: cutcomp takes tool {tool.number}, the only one given."
             self.log.inform("TOOL", text, block)

@@ -12,7 +12,7 @@ from itertools import count
 from typing import Final
 
 from core.controls.compensation.elements import Element
-from core.controls.control_tools import CutterTool, ToolTable
+from core.controls.control_tools import CutterTool, ToolTable, table_of
 from core.controls.write.contour_pass import (
     CenterMove,
     ContourPass,
@@ -54,10 +54,10 @@ def offsets(cuts: Sequence[ContourPass], style: IsoStyle) -> dict[tuple[int, flo
 def tools_of(cuts: Sequence[ContourPass], style: IsoStyle) -> ToolTable:
     """Return the tool or offset table that the program needs, in millimeters; none if its text has the diameters."""
     if style.radius is Radius.DATA:
-        return ToolTable()
+        return {}
     numbers = offsets(cuts, style)
     stock = style.radius is Radius.OFFSET
-    return ToolTable.of(
+    return table_of(
         *(
             CutterTool(numbers[cut.tool, cut.stock], cut.diameter + (2 * cut.stock if stock else 0.0), unit=Unit.MM)
             for cut in cuts

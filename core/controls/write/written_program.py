@@ -7,7 +7,6 @@ from dataclasses import dataclass, replace
 from typing import Final
 
 from core.comp.compensated import Compensated
-from core.controls.control_tools import ToolTable
 from core.controls.registry import is_klartext
 from core.controls.write import iso_program, klartext_program
 from core.controls.write.contour_pass import (
@@ -72,7 +71,7 @@ def _klartext(cuts: Sequence[PassToWrite], control: str, frame: Frame, name: str
         lines = klartext_program.write_klartext(cuts, name, frame.unit, remarks(notes))
         if isinstance(lines, Finding):
             return lines
-        return Intended(control, lines, tuple(cuts), ToolTable(), frame.unit, digit, leads=False)
+        return Intended(control, lines, tuple(cuts), {}, frame.unit, digit, leads=False)
 
     return _confirmed(write, frame.unit)
 

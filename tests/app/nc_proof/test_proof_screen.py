@@ -28,7 +28,7 @@ from app.screens.home import HomeScreen
 from app.session.work import Work
 from app.widgets.drawing import Drawing
 from app.widgets.status import Status
-from core.controls.control_tools import CutterTool, ToolTable
+from core.controls.control_tools import CutterTool
 from core.controls.write.written_program import Posted
 from core.draw.scene import Style
 from core.finding import Severity
@@ -306,9 +306,9 @@ async def test_a_posted_program_opens_with_the_control_and_the_tools_of_its_head
 
 def test_tools_in_the_comments_of_another_program_are_not_taken_for_a_header():
     comments = b"(UNITS INCH)\n(TOOL 1 DIAMETER 0.5000: THE SAME)\n"
-    assert not header_tools(NcText.read(b"O1\n" + comments)).tools
+    assert not header_tools(NcText.read(b"O1\n" + comments))
     ours = b"(WRITTEN BY CUTCOMP FOR fanuc:b: THE CONTOUR)\n" + comments
-    assert header_tools(NcText.read(ours)).tools == {1: CutterTool(1, 0.5, unit=Unit.IN)}
+    assert header_tools(NcText.read(ours)) == {1: CutterTool(1, 0.5, unit=Unit.IN)}
 
 
 async def test_tools_of_the_last_time_come_before_those_of_the_header(tmp_path):
@@ -323,13 +323,13 @@ async def test_tools_of_the_last_time_come_before_those_of_the_header(tmp_path):
         await user.press("f8")
         user.app.open_file(tmp_path / "p.nc")
         await user.settle()
-        assert user.proof.request.tools.tools == read_tools(saved_tools).tools
+        assert user.proof.request.tools == read_tools(saved_tools)
         assert user.proof.request.tools.get(1) == CutterTool(1, 0.625, unit=Unit.IN)
         assert "last time" in user.prompt
 
 
 def test_damaged_tools_of_the_last_time_are_left_out():
-    assert read_tools("1=..5in 0=x 2=5 3=-5e-1in x").tools == {3: CutterTool(3, -0.5, unit=Unit.IN)}
+    assert read_tools("1=..5in 0=x 2=5 3=-5e-1in x") == {3: CutterTool(3, -0.5, unit=Unit.IN)}
 
 
 async def test_a_letter_jumps_to_the_control_whose_name_begins_with_it(tmp_path):
@@ -494,7 +494,7 @@ async def test_the_tool_dialog_asks_for_the_tool_that_the_control_lacks(tmp_path
         assert user.proof.request.tools.get(5) == CutterTool(5, 0.25, unit=Unit.IN)
         assert user.prompt == "Tool 5: diameter 0.25 IN."
         await user.press("t", *"5=", "enter")
-        assert list(user.proof.request.tools.tools) == [2]
+        assert list(user.proof.request.tools) == [2]
         assert user.app.settings.tools_of(tmp_path / "p.nc") == "2=0.25in"
 
 
@@ -513,15 +513,15 @@ async def test_a_klartext_tool_gets_its_diameter_by_name(tmp_path):
     )
     async with at_proof(tmp_path, text) as user:
         await with_tool(user, "10")
-        assert user.proof.request.tools.tools == {"ROUGH D10": CutterTool("ROUGH D10", 10.0, unit=Unit.MM)}
+        assert user.proof.request.tools == {"ROUGH D10": CutterTool("ROUGH D10", 10.0, unit=Unit.MM)}
         assert user.prompt == "Tool ROUGH D10: diameter 10 MM."
         assert user.proof.result.answer.stopped_at is None
         saved_tools = user.app.settings.tools_of(tmp_path / "p.nc")
-        assert read_tools(saved_tools).tools == user.proof.request.tools.tools
+        assert read_tools(saved_tools) == user.proof.request.tools
         await with_tool(user, "rough d10=12")
         assert user.proof.request.tools.get("ROUGH D10").diameter == 12.0
         await with_tool(user, "Rough D10=")
-        assert not user.proof.request.tools.tools
+        assert not user.proof.request.tools
         assert user.proof.result.answer.missing == "ROUGH D10"
 
 
@@ -598,7 +598,7 @@ def test_an_unreadable_diameter_is_explained_in_a_sentence():
 
 async def test_subprograms_are_found_in_the_folder_of_the_file(tmp_path):
     (tmp_path / "O0007.nc").write_text("O7\nG1 X5. F100.\nM99\n")
-    check_request = CheckRequest("fanuc:a", ToolTable(), shop=False, unit=None)
+    check_request = CheckRequest("fanuc:a", {}, shop=False, unit=None)
     async with at_proof(tmp_path, b"%\nO1\nG21 G90 G0 X0 Y0\nM98 P7\nM30\n%\n", check_request) as user:
         assert "runs" in user.outcome
         assert user.proof.result is not None

@@ -37,11 +37,11 @@ def klartext(*blocks: str) -> bytes:
 
 
 def on(text: bytes, control: str, tools: ToolTable | None = None) -> ControlRun:
-    return run(text, control, tools or ToolTable())
+    return run(text, control, tools or {})
 
 
 def rows(text: bytes, tools: ToolTable | None = None) -> dict[str, Compared | OtherLanguage]:
-    return {row.control: row for row in compare(text, tools or ToolTable())}
+    return {row.control: row for row in compare(text, tools or {})}
 
 
 def by_contour(source: ControlRun, control: str) -> ControlRun:

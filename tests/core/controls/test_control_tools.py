@@ -4,9 +4,8 @@ from __future__ import annotations
 
 import pytest
 
-from core.controls.control_tools import CommentedSize, CutterTool, commented_size, read_table
+from core.controls.control_tools import CommentedSize, CutterTool, commented_size, read_table, table_of
 from core.units import Unit
-from tests.tool_tables import end_mills
 
 
 def test_a_table_as_linuxcnc_writes_it() -> None:
@@ -32,8 +31,8 @@ def test_a_diameter_without_unit_is_the_program_s() -> None:
 
 
 def test_tools_given_later_replace_those_of_the_table() -> None:
-    both = end_mills({1: 1.0, 2: 2.0}).with_tools(end_mills({2: 3.0}))
-    assert [both.tools[number].diameter for number in (1, 2)] == [1.0, 3.0]
+    both = table_of(CutterTool(1, 1.0), CutterTool(2, 2.0), CutterTool(2, 3.0))
+    assert [both[number].diameter for number in (1, 2)] == [1.0, 3.0]
 
 
 @pytest.mark.parametrize(

@@ -13,7 +13,7 @@ import pytest
 
 from core.controls import registry
 from core.controls.control_run import ControlRun
-from core.controls.control_tools import CutterTool, ToolTable
+from core.controls.control_tools import CutterTool, table_of
 from core.controls.iso import macro_b_flow
 from core.controls.iso.iso_run import run_iso
 from core.controls.makers import fanuc
@@ -39,14 +39,14 @@ class Flat:
 
 def ran(program: str, control: str = "fanuc:a", radii: dict[int, float] | None = None) -> ControlRun:
     """Run a metric program with offsets of these radii, by default D1 with radius 5."""
-    table = ToolTable.of(*(CutterTool(number, 2 * radius) for number, radius in (radii or {1: 5.0}).items()))
+    table = table_of(*(CutterTool(number, 2 * radius) for number, radius in (radii or {1: 5.0}).items()))
     return registry.run(program.encode(), control, table, Unit.MM)
 
 
 def ran_with(program: str, **rules: Any) -> ControlRun:
     """Run on `fanuc:a` with other parameters."""
     changed = replace(fanuc.VECTOR_RULES["a"], **rules)
-    table = ToolTable.of(CutterTool(1, 10.0))
+    table = table_of(CutterTool(1, 10.0))
     return run_iso(program.encode(), "fanuc:a", fanuc.DIALECT, table, partial(fanuc.Fanuc, rules=changed))
 
 

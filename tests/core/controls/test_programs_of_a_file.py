@@ -5,7 +5,6 @@ from __future__ import annotations
 import pytest
 
 from core.controls import registry
-from core.controls.control_tools import ToolTable
 from core.finding import Severity
 from core.units import Unit
 from tests.core.controls.hand import findings_of, lines_and_ends, run_of
@@ -154,7 +153,7 @@ FILES: dict[int | str, tuple[str, bytes]] = {
 def test_moves_and_findings_of_a_called_file_count_for_the_line_that_calls_it(
     control: str, calls: str, ends: list[tuple[int, float]], stop: int, text: str
 ) -> None:
-    run = registry.run(f"G21 F9.\nG0 X1.\n{calls}\nM30\n".encode(), control, ToolTable(), Unit.MM, FILES.get)
+    run = registry.run(f"G21 F9.\nG0 X1.\n{calls}\nM30\n".encode(), control, {}, Unit.MM, FILES.get)
     assert [(move.line, move.point[0]) for move in run.moves if move.line] == ends
     assert (run.stopped_at, run.findings[-1].line) == (stop, stop)
     assert run.findings[-1].text.startswith(text)

@@ -7,7 +7,6 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from core.controls.control_run import AlarmError, Log
-from core.controls.control_tools import ToolTable
 from core.controls.iso.reader import PLAIN_SYNTAX, Block, Syntax, ToolData, read_line, tenths, whole
 from core.controls.klartext.control import run_klartext
 from core.controls.program_text import lines_of, quoted
@@ -180,5 +179,5 @@ def test_a_number_too_large_for_any_machine_is_named_with_the_limit() -> None:
     finding = alarm("G1 X20000000. Y0")
     assert finding is not None
     assert finding.text == "X20000000. is too large: no machine goes beyond 10,000,000."
-    made = run_klartext(b"0 BEGIN PGM A MM\n1 TOOL CALL 1 Z S1\n2 L X+20000000 FMAX\n3 END PGM A MM\n", ToolTable())
+    made = run_klartext(b"0 BEGIN PGM A MM\n1 TOOL CALL 1 Z S1\n2 L X+20000000 FMAX\n3 END PGM A MM\n", {})
     assert made.findings[-1].text == "X 2e+07 is too large: no machine goes beyond 10,000,000."

@@ -13,7 +13,6 @@ from hypothesis import strategies as st
 
 from core.comp.compensate import compensate
 from core.comp.compensated import Compensated
-from core.controls.control_tools import ToolTable
 from core.controls.klartext.control import run_klartext
 from core.controls.write.contour_pass import CompensatedPass
 from core.controls.write.iso_program import Frame
@@ -55,7 +54,7 @@ def outline(*points: Point) -> Path:
 
 def path_on_control(text: str, stretch: int = 0) -> Path:
     """The path the control makes of a program."""
-    made = run_klartext(text.encode(), ToolTable())
+    made = run_klartext(text.encode(), {})
     assert made.stopped_at is None, made.findings
     assert not made.findings, made.findings
     one = made.stretches[stretch]
@@ -159,7 +158,7 @@ def test_inches_read_back() -> None:
     assert isinstance(text, str)
     assert "TOOL DEF 2 L+0 R+0.25\n" in text
     assert "F10\n" in text
-    made = run_klartext(text.encode(), ToolTable())
+    made = run_klartext(text.encode(), {})
     (stretch,) = made.stretches
     path = made.moves.part(stretch.first, stretch.last).path()
     assert float(np.abs(path.points - compensated.with_leads.points).max()) < MIN_TOLERANCE

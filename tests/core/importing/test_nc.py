@@ -11,7 +11,7 @@ from pathlib import Path
 import pytest
 
 from core.controls.compared_contours import apart
-from core.controls.control_tools import CutterTool, ToolTable
+from core.controls.control_tools import CutterTool, ToolTable, table_of
 from core.controls.write.written_program import Posted
 from core.geometry.path import Path as GeometryPath
 from core.geometry.piece import Piece, Side
@@ -33,7 +33,7 @@ POSTED = [example for example in EXAMPLES if example.stem in ("flange", "overrun
 CASES = [(example, control) for example in POSTED for control in ENTRY_VARIANTS]
 
 
-TOOLS = ToolTable.of(CutterTool(1, 4.0, unit=Unit.MM))
+TOOLS = table_of(CutterTool(1, 4.0, unit=Unit.MM))
 
 
 def program(example: Path) -> Program:
@@ -49,7 +49,7 @@ def derived_example(example: Path) -> tuple[Program, Derived]:
 def tools_of(part: Program) -> ToolTable:
     """The tools of a program, in its unit."""
     sizes = [(tool.number, tool.diameter) for tool in part.tools]
-    return ToolTable.of(
+    return table_of(
         *(CutterTool(number, size.value, unit=part.unit) for number, size in sizes if isinstance(size, Number))
     )
 
@@ -57,7 +57,7 @@ def tools_of(part: Program) -> ToolTable:
 def offsets_in(text: str, unit: Unit) -> ToolTable:
     """The offsets that the header of a program lists."""
     rows = re.findall(r"OFFSET D(\d+) RADIUS ([\d.]+)", text)
-    return ToolTable.of(*(CutterTool(int(number), 2 * float(radius), unit=unit) for number, radius in rows))
+    return table_of(*(CutterTool(int(number), 2 * float(radius), unit=unit) for number, radius in rows))
 
 
 def largest_difference(first: tuple[Piece, ...], second: tuple[Piece, ...]) -> float:
@@ -86,7 +86,7 @@ def test_a_posted_control_program_is_imported_as_its_contour(example: Path, cont
     original, derived = derived_example(example)
     posted = post_control_program(derived, name=example.stem, control=control)
     assert isinstance(posted, Posted), posted.text
-    tools = tools_of(original).with_tools(offsets_in(posted.text, original.unit))
+    tools = {**tools_of(original), **offsets_in(posted.text, original.unit)}
     read = read_nc(posted.text.encode(), control, tools)
     again = imported(read)
     back = surfaces(derive(again))
@@ -175,14 +175,14 @@ def test_even_depth_steps_become_pecks_and_feeds_stay_with_their_segments() -> N
 
 def test_an_imported_contour_adds_its_tool() -> None:
     text = b"G21 G90 G17\nT7 M6\nG0 X-9 Y-9\nG1 G41 D7 X0 Y0 F200\nX20 Y0\nX20 Y20\nX0 Y0\nG40 X-9 Y-9\nM30\n"
-    part = imported(read_nc(text, "linuxcnc", ToolTable.of(CutterTool(7, 6.0))))
+    part = imported(read_nc(text, "linuxcnc", table_of(CutterTool(7, 6.0))))
     assert part.blocks[0].tool == Number(7.0)
     assert [tool.diameter for tool in part.tools if tool.number == 7] == [Number(6.0)]
 
 
 def test_a_tool_selected_for_the_next_change_is_not_the_contours_tool() -> None:
     moves = b"S900 M3\nG0 X-9 Y-9\nT7\nG1 G41 D1 X0 Y0 F200\nX20 Y0\nX20 Y20\nX0 Y0\nG40 X-9 Y-9\nM30\n"
-    tools = ToolTable.of(CutterTool(1, 4.0), CutterTool(7, 6.0))
+    tools = table_of(CutterTool(1, 4.0), CutterTool(7, 6.0))
     (contour,) = read_nc(b"G21 G90 G17\nT1 M6\n" + moves, "linuxcnc", tools).contours
     assert (contour.tool, contour.speed) == (1, 900.0)
 
@@ -190,7 +190,7 @@ def test_a_tool_selected_for_the_next_change_is_not_the_contours_tool() -> None:
 def test_the_tool_and_speed_of_a_klartext_contour_are_those_of_its_tool_call() -> None:
     moves = b"L X-9 Y-9 R0 FMAX\nL X+0 Y+0 RL F200\nL X+20\nL Y+20\nL X+0 Y+0\nL X-9 Y-9 R0\nEND PGM A MM\n"
     calls = b"BEGIN PGM A MM\nTOOL DEF 3 L+0 R+2\nTOOL CALL 3 Z S1800\nTOOL CALL S2500\n"
-    (contour,) = read_nc(calls + moves, "klartext", ToolTable()).contours
+    (contour,) = read_nc(calls + moves, "klartext", {}).contours
     assert (contour.tool, contour.speed) == (3, 2500.0)
 
 
@@ -263,12 +263,12 @@ def test_a_corner_that_the_tool_does_not_reach_is_closed_by_tangents(
 def test_an_arc_smaller_than_the_tool_is_refused_with_its_line() -> None:
     text = b"G21 G90 G17 G0 X0 Y0\nG1 Z-1 F100\nG1 X10 Y0\nG2 X12 Y-2 I0 J-2\nG1 X12 Y-20\nM30\n"
     with pytest.raises(NcError, match=r"Line 4: an arc of the path is smaller than the tool"):
-        read_nc(text, "linuxcnc", ToolTable(), center=CenterPathTool(Side.LEFT, 10.0))
+        read_nc(text, "linuxcnc", {}, center=CenterPathTool(Side.LEFT, 10.0))
 
 
 DATA = Path(__file__).parents[2] / "data"
 PROGRAMS = sorted(path for path in DATA.rglob("*") if path.suffix.lower() in (".nc", ".ngc", ".h"))
-SIZES = ToolTable.of(*(CutterTool(number, 10.0, unit=Unit.MM) for number in range(1, 60)))
+SIZES = table_of(*(CutterTool(number, 10.0, unit=Unit.MM) for number in range(1, 60)))
 
 
 @pytest.mark.parametrize(
@@ -291,23 +291,23 @@ def test_any_program_gives_contours_or_a_reason(center: CenterPathTool | None) -
 
 def test_an_alarm_names_the_line() -> None:
     with pytest.raises(NcError, match="stops at line 2"):
-        read_nc(b"G21 G90 G17\nG41 D9 G1 X1 F100\nM30\n", "linuxcnc", ToolTable())
+        read_nc(b"G21 G90 G17\nG41 D9 G1 X1 F100\nM30\n", "linuxcnc", {})
     with pytest.raises(NcError, match=r"^three-block stops at line 2"):
-        read_nc(b"G17G71G40G90\nG2X1.\n", "threeblock", ToolTable())
+        read_nc(b"G17G71G40G90\nG2X1.\n", "threeblock", {})
 
 
 @pytest.mark.parametrize(("control", "lines"), [("fanuc:a", "5 to 6"), ("nine-series", "4 to 5")])
 def test_a_contour_whose_offset_changes_on_the_way_is_refused_with_the_place(control: str, lines: str) -> None:
     """Fanuc reaches the offset of D2 at the end of its block, the nine-series before it."""
     text = b"G21 G90 G17\nG0 X-9. Y-9.\nG1 G42 D1 X0. Y0. F100\nX20.\nD2 Y20.\nX0.\nY0.\nG40 X-9. Y-9.\nM30\n"
-    tools = ToolTable.of(CutterTool(1, 4.0, unit=Unit.MM), CutterTool(2, 5.0, unit=Unit.MM))
+    tools = table_of(CutterTool(1, 4.0, unit=Unit.MM), CutterTool(2, 5.0, unit=Unit.MM))
     with pytest.raises(NcError, match=f"^The side or the radius of the tool changes .*, from line {lines}[.]"):
         read_nc(text, control, tools)
 
 
 def test_the_unit_of_the_program_is_kept() -> None:
     text = b"G20 G90 G17\nG0 X0 Y0\nG1 Z-.1 F10\nX1.\nY1.\nM30\n"
-    read = read_nc(text, "linuxcnc", ToolTable(), center=CenterPathTool(None, 1.0))
+    read = read_nc(text, "linuxcnc", {}, center=CenterPathTool(None, 1.0))
     assert read.unit is Unit.IN
     block = imported(read).blocks[0]
     assert block.segments[0].x_end == Number(1.0)

@@ -14,7 +14,7 @@ import numpy as np
 import pytest
 
 from core.comp.best_path.best_path import best_path
-from core.controls.control_tools import CutterTool, ToolTable
+from core.controls.control_tools import CutterTool, table_of
 from core.controls.write.written_program import Posted
 from core.geometry.path import Path
 from core.geometry.piece import Arc, Line, Piece, Point, Side, Turn
@@ -140,7 +140,7 @@ def test_a_drawing_posted_and_read_back_is_the_same_contour(control: str) -> Non
     derived = derive(program)
     posted = post_control_program(derived, name="part", control=control)
     assert isinstance(posted, Posted), posted
-    read = read_nc(posted.text.encode(), control, ToolTable.of(CutterTool(1, 8.0, unit=Unit.MM)))
+    read = read_nc(posted.text.encode(), control, table_of(CutterTool(1, 8.0, unit=Unit.MM)))
     back, _ = nc_blocks(Program(unit=Unit.MM), read)
     surfaces = [[piece for _, piece in solve_block(made.blocks[0], made).pieces] for made in (program, back)]
     assert len(surfaces[0]) == len(surfaces[1])

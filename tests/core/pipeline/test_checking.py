@@ -7,7 +7,7 @@ from math import cos, pi, sin, sqrt
 import pytest
 
 from core.controls.control_run import ControlRun
-from core.controls.control_tools import CutterTool, ToolTable
+from core.controls.control_tools import CutterTool, table_of
 from core.controls.judging.judged_runs import judge_run
 from core.controls.registry import run
 from core.pipeline.checking import (
@@ -26,7 +26,7 @@ from core.units import Unit, from_mm
 
 
 def request_for(control: str, *tools: CutterTool) -> CheckRequest:
-    return CheckRequest(control, ToolTable.of(*tools), shop=False, unit=None)
+    return CheckRequest(control, table_of(*tools), shop=False, unit=None)
 
 
 def test_a_missing_diameter_stops_the_run_and_names_the_option_that_gives_it() -> None:
@@ -204,9 +204,9 @@ def test_the_outcome_says_the_worst_in_a_few_words(control: str, text: bytes, ou
     ],
 )
 def test_nc_proof_names_its_key_for_a_missing_diameter(control: str, text: bytes, tool: int | None) -> None:
-    done = run(text, control, ToolTable())
+    done = run(text, control, {})
     assert isinstance(done, ControlRun)
-    row = answered(done, judge_run(done), text, ToolTable())
+    row = answered(done, judge_run(done), text, {})
     assert row.missing == tool
     assert row.stop_reason.endswith(f"T gives tool {tool} its diameter.") is (tool is not None)
 

@@ -7,7 +7,7 @@ from itertools import pairwise
 import pytest
 
 from core.controls.control_run import ControlRun
-from core.controls.control_tools import CutterTool, ToolTable
+from core.controls.control_tools import CutterTool, table_of
 from core.controls.judging.corner_loops import without_corner_loops
 from core.controls.judging.judged_contour import JudgedContour
 from core.controls.judging.judged_findings import judged_findings
@@ -30,7 +30,7 @@ LOOPS = {
 
 def judged(cut: str, control: str = "fanuc:a") -> tuple[tuple[JudgedContour, ...], list[Finding]]:
     """The verdicts on a cut with a tool of 10, and what is told of loops."""
-    done = run(f"{HEAD}{cut}{FOOT}".encode(), control, ToolTable.of(CutterTool(1, 10.0)))
+    done = run(f"{HEAD}{cut}{FOOT}".encode(), control, table_of(CutterTool(1, 10.0)))
     assert isinstance(done, ControlRun)
     assert done.stopped_at is None, done.findings
     results = judge_run(done)
@@ -97,7 +97,7 @@ REPEATED = (
 @pytest.mark.parametrize("control", ["haas:a", "haas:b-yasnac", "nine-series:a"])
 def test_a_loop_may_lead_from_one_depth_to_the_next(control: str) -> None:
     text = REPEATED.format(around="X80.\nY0.\nX-20.\nY-20.\n")
-    done = run(text.encode(), control, ToolTable.of(CutterTool(1, 16.0)))
+    done = run(text.encode(), control, table_of(CutterTool(1, 16.0)))
     assert isinstance(done, ControlRun)
     (result,) = results = judge_run(done)
     assert result.verdict.clean
@@ -116,7 +116,7 @@ def test_a_loop_may_lead_from_one_depth_to_the_next(control: str) -> None:
     ],
 )
 def test_a_gouge_where_a_loop_leads_to_the_next_depth_is_found(control: str, around: str) -> None:
-    done = run(REPEATED.format(around=around).encode(), control, ToolTable.of(CutterTool(1, 16.0)))
+    done = run(REPEATED.format(around=around).encode(), control, table_of(CutterTool(1, 16.0)))
     assert isinstance(done, ControlRun)
     assert done.stopped_at is not None or any(result.verdict.gouges for result in judge_run(done))
 
@@ -138,7 +138,7 @@ ROUGHED = (
     ],
 )
 def test_a_loop_may_lead_from_the_roughing_offset_to_the_finishing_one(finish: str, line: int | None) -> None:
-    tools = ToolTable.of(CutterTool(1, 12.0), CutterTool(2, 12.5))
+    tools = table_of(CutterTool(1, 12.0), CutterTool(2, 12.5))
     done = run(ROUGHED.format(finish=finish).encode(), "fanuc:a", tools)
     assert isinstance(done, ControlRun)
     assert done.stopped_at is None, done.findings

@@ -5,13 +5,13 @@ from __future__ import annotations
 import pytest
 
 from core.controls.control_run import ControlRun
-from core.controls.control_tools import CutterTool, ToolTable
+from core.controls.control_tools import CutterTool, table_of
 from core.controls.judging.judged_findings import judged_findings
 from core.controls.judging.judged_runs import judge_run
 from core.controls.registry import run
 from core.finding import Severity
 
-TOOLS = ToolTable.of(CutterTool(1, 10.0))
+TOOLS = table_of(CutterTool(1, 10.0))
 POCKET = "G0 X40 Y0\nG1 Z-5\nG41 D1 X50 Y0\nY50\nX-50\nY-50\nX50\nY0\nG40 X40\nG0 Z2\n"
 """A pocket of 100 by 100."""
 

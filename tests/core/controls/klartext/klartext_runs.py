@@ -11,7 +11,7 @@ from core.controls.moves import Move
 
 DATA = Path(__file__).parents[3] / "data"
 HEAD = "BEGIN PGM P MM\nTOOL DEF 1 L+0 R+{radius}\nTOOL CALL 1 Z S1000\n"
-TOOLS = ToolTable()
+TOOLS: ToolTable = {}
 
 
 def runs(*blocks: str, radius: float = 5.0, tools: ToolTable = TOOLS) -> ControlRun:

@@ -7,7 +7,6 @@ from pathlib import Path
 
 import pytest
 
-from core.controls.control_tools import ToolTable
 from core.controls.klartext.control import run_klartext
 from core.finding import Severity
 from tests.core.controls.klartext.klartext_runs import DATA, runs
@@ -25,7 +24,7 @@ def test_the_finding_names_the_place_where_a_rule_is_broken(file: Path) -> None:
     text = file.read_bytes()
     wanted = WANTED.match(text.decode())
     assert wanted is not None
-    made = run_klartext(text, ToolTable())
+    made = run_klartext(text, {})
     (stop,) = [finding for finding in made.findings if finding.severity is Severity.ERROR]
     assert (stop.code, stop.line, stop.column) == (wanted[1], int(wanted[2]), int(wanted[3]))
     assert made.stopped_at == stop.line

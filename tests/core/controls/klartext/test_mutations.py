@@ -12,7 +12,6 @@ from time import process_time
 import pytest
 
 from core.controls.control_run import ControlRun
-from core.controls.control_tools import ToolTable
 from core.controls.klartext.control import run_klartext
 from tests.core.controls.klartext.klartext_runs import DATA
 
@@ -57,7 +56,7 @@ def run_broken(file: Path, count: int) -> tuple[float, int]:
     for number in range(count):
         program = mutated(text, random)
         before = process_time()
-        made = run_klartext(program, ToolTable())
+        made = run_klartext(program, {})
         slowest = max(slowest, process_time() - before)
         cutting += bool(made.stretches)
         assert sound(made), (file.name, number, program)
@@ -91,7 +90,7 @@ def test_a_hundred_mutations_of_each_sample(file: Path) -> None:
 )
 def test_what_is_no_program_is_answered(text: bytes) -> None:
     before = process_time()
-    made = run_klartext(text, ToolTable())
+    made = run_klartext(text, {})
     assert process_time() - before < LONGEST
     assert sound(made)
     assert made.findings

@@ -12,7 +12,6 @@ from math import hypot, sqrt
 import pytest
 
 from core.controls.control_run import ControlRun
-from core.controls.control_tools import ToolTable
 from core.controls.klartext.control import run_klartext
 from core.verify.judge import judge
 from tests.core.controls.klartext.klartext_runs import DATA, flat
@@ -23,7 +22,7 @@ NEAR = pytest.approx
 
 
 def sample(name: str) -> ControlRun:
-    made = run_klartext((DATA / "klartext" / f"{name}.h").read_bytes(), ToolTable())
+    made = run_klartext((DATA / "klartext" / f"{name}.h").read_bytes(), {})
     assert made.stopped_at is None
     assert not made.findings
     return made
@@ -108,7 +107,7 @@ def test_a_departure_runs_at_the_feed_in_force_and_ends_compensation(name: str) 
 
 
 def test_a_program_with_one_of_everything_runs_to_its_end() -> None:
-    made = run_klartext((DATA / "klartext" / "part.h").read_bytes(), ToolTable())
+    made = run_klartext((DATA / "klartext" / "part.h").read_bytes(), {})
     assert made.stopped_at is None, made.findings
     assert {finding.code for finding in made.findings} == {"IGNORED", "TOOL"}
     assert [stretch.radius for stretch in made.stretches] == [NEAR(4.0)] * 2

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import pytest
 
-from core.controls.control_tools import CutterTool, ToolTable
+from core.controls.control_tools import CutterTool, ToolTable, table_of
 from core.controls.klartext.control import run_klartext
 from core.finding import Severity
 from core.units import Unit
@@ -12,7 +12,7 @@ from tests.core.controls.klartext.klartext_runs import clean, codes, flat, point
 
 NEAR = pytest.approx
 CONTOUR = ("L X-20 Y+0 R0 FMAX", "L X+0 Y+0 RL F9", "L X+30", "L X+60 R0")
-NONE = ToolTable()
+NONE: ToolTable = {}
 
 
 def entry(*before: str, tools: ToolTable = NONE) -> float:
@@ -42,7 +42,7 @@ def test_the_radius_comes_from_the_tool_data() -> None:
 
 
 def test_the_tool_table_takes_precedence_over_tool_def_and_is_reported() -> None:
-    tools = ToolTable.of(CutterTool(1, 9.0), CutterTool(4, 0.25, unit=Unit.IN))
+    tools = table_of(CutterTool(1, 9.0), CutterTool(4, 0.25, unit=Unit.IN))
     run = runs("TOOL CALL 1 Z", *CONTOUR, tools=tools)
     assert [(finding.code, finding.severity) for finding in run.findings] == [("TOOL", Severity.INFO)] * 2
     assert entry("TOOL CALL 1 Z", tools=tools) == 4.5
@@ -254,7 +254,7 @@ def test_incremental_words_after_a_machine_position_are_reported() -> None:
 
 def test_a_program_without_tool_call_takes_the_only_tool_and_reports_it() -> None:
     text = "\n".join(CONTOUR).encode()
-    one_tool, two_tools = ToolTable.of(CutterTool(7, 9.0)), ToolTable.of(CutterTool(7, 9.0), CutterTool(8, 4.0))
+    one_tool, two_tools = table_of(CutterTool(7, 9.0)), table_of(CutterTool(7, 9.0), CutterTool(8, 4.0))
     run = run_klartext(text, one_tool)
     assert flat(run)[0][1] == 4.5
     assert ("TOOL", 2) in codes(run)
