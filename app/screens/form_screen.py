@@ -259,7 +259,7 @@ class FormScreen(BaseScreen):
                 self.say(OLD_VALUE)
             return
         if self.last_is_unread:
-            self.host.action_undo()
+            self._undo_unread()
             self.say(OLD_VALUE)
             return
         self._armed = self.focused
@@ -267,6 +267,17 @@ class FormScreen(BaseScreen):
             self.focused.softkey_digits = True
         self.say(ARMED_PROMPT)
         self.set_timer(SOFTKEY_WAIT, self.disarm)
+
+    def _undo_unread(self) -> None:
+        """Undo the edits that left unusable text in the field with the cursor, several if it was mistyped again."""
+        field = self.current_field
+        self.host.action_undo()
+        while field is not None:
+            session = self.current_session
+            unread = unusable(self.value(field.name), field, session.program.unit) is not None
+            if not unread or session.history.undo_label != self.label(field):
+                return
+            self.host.action_undo()
 
     @property
     def last_is_unread(self) -> bool:

@@ -67,3 +67,20 @@ async def test_esc_on_an_older_unreadable_text_keeps_the_later_edits(user: Opera
     await user.press("1", "a", "5", "enter", "tab", "3", "tab", "shift+tab", "shift+tab", "escape")
     assert user.prompt == "1 to 8 press the softkey now, as F1 to F8 do."
     assert user.session.block.y_start == Number(3.0)
+
+
+async def test_esc_brings_back_the_last_number_that_can_be_used(user: Operator):
+    await user.begin("pocket", 0, "tool")
+    before = user.session.program
+    await user.press("'0", "enter", "'x", "enter")
+    assert user.tag("tool") == "ERR"
+    await user.press("escape")
+    assert user.prompt == "The old number is back. Esc again, then 1 to 8, is a softkey."
+    assert (user.value("tool"), user.tag("tool")) == ("1", "")
+    assert user.session.program == before
+    # text that was unusable before stays
+    await user.press("'x", "enter")
+    broken = user.session.program
+    await user.begin(broken, 0, "tool")
+    await user.press("'y", "enter", "escape")
+    assert user.session.program == broken
