@@ -342,13 +342,13 @@ class ImportScreen(BaseScreen):
     def contour(self) -> Contour | None:
         """The contour with the cursor; in a row of several, the first one."""
         row = self.table.current if self.is_mounted else None
-        return None if row is None else self._contour(row.first.number)
+        return None if row is None else self._contour(row[0].number)
 
     @property
     def row_numbers(self) -> tuple[int, ...]:
         """The numbers of the contours in the row with the cursor."""
         row = self.table.current
-        return () if row is None else tuple(contour.number for contour in row.contours)
+        return () if row is None else tuple(contour.number for contour in row)
 
     @property
     def chosen(self) -> tuple[Contour, ...]:
@@ -368,7 +368,7 @@ class ImportScreen(BaseScreen):
         contours = matching(listed.contours, text, self.unit) if text.strip() else listed.contours
         rows: list[Row] = []
         for row in rows_of(contours):
-            rows += [Row((each,)) for each in row.contours] if row.first.number in self._unfolded else [row]
+            rows += [(each,) for each in row] if row[0].number in self._unfolded else [row]
         self.table.fill(rows, self.unit, self.marked, at)
         self._show_title()
         self._show_row()
@@ -449,7 +449,7 @@ class ImportScreen(BaseScreen):
             self._unfolded.add(numbers[0])
             self._show_rows(contour.number)
         elif not wide:
-            rows = [[each.number for each in row.contours] for row in rows_of(self.listed.contours)]
+            rows = [[each.number for each in row] for row in rows_of(self.listed.contours)]
             first = next((numbers[0] for numbers in rows if contour.number in numbers), 0)
             if first in self._unfolded:
                 self._unfolded.remove(first)

@@ -42,7 +42,7 @@ class ContourTable(RowTable[Content]):
         self.rows_shown = tuple(rows)
         self.clear()
         self.add_rows(_cells(row, unit, marked) for row in rows)
-        here = (number for number, row in enumerate(rows) if any(contour.number == at for contour in row.contours))
+        here = (number for number, row in enumerate(rows) if any(contour.number == at for contour in row))
         self.move_cursor(row=next(here, 0))
 
     def show_marks(self, marked: Collection[int]) -> None:
@@ -63,13 +63,13 @@ def _heading(label: str, width: int) -> str:
 
 
 def _first_cell(row: Row, marked: Collection[int]) -> Content:
-    count = sum(contour.number in marked for contour in row.contours)
-    sign = TAKEN_MARK if count == len(row.contours) else "-" if count else " "
-    return Content(f"{sign}{row.first.number:>5}")
+    count = sum(contour.number in marked for contour in row)
+    sign = TAKEN_MARK if count == len(row) else "-" if count else " "
+    return Content(f"{sign}{row[0].number:>5}")
 
 
 def _cells(row: Row, unit: Unit, marked: Collection[int]) -> tuple[Content, ...]:
-    contour = row.first
+    contour = row[0]
     _, _, layer, pieces, length, size, more = cells_of(row, unit)
     kind = f" {' ' * min(contour.depth, MAX_INDENT)}{contour.kind}"
     texts = (kind, f" {layer}"[: COLUMNS[2][1]], pieces.rjust(COLUMNS[3][1]), length.rjust(COLUMNS[4][1]))

@@ -7,7 +7,6 @@ from __future__ import annotations
 
 import itertools
 from collections.abc import Iterable, Iterator, Sequence
-from dataclasses import dataclass
 from itertools import pairwise
 from math import cos, isfinite, sin
 from typing import Final
@@ -33,16 +32,8 @@ ELLIPSE_SAMPLES: Final = 33
 """Points on an ellipse that give its size when the unit is asked."""
 
 
-@dataclass(frozen=True, slots=True)
-class Row:
-    """A row of the list: one contour, or circles of equal size, kind and layer inside the same contour."""
-
-    contours: tuple[Contour, ...]
-
-    @property
-    def first(self) -> Contour:
-        """The contour that the row displays."""
-        return self.contours[0]
+Row = tuple[Contour, ...]
+"""A row of the list: one contour, or circles of equal size, kind and layer inside the same contour."""
 
 
 def rows_of(contours: Sequence[Contour]) -> tuple[Row, ...]:
@@ -54,20 +45,20 @@ def rows_of(contours: Sequence[Contour]) -> tuple[Row, ...]:
         if radius is not None and not contour.problems:
             key = (round(radius / SAME_SIZE), contour.kind, contour.layers, contour.inside)
         rows.setdefault(key, []).append(contour)
-    return tuple(Row(tuple(row)) for row in rows.values())
+    return tuple(map(tuple, rows.values()))
 
 
 def matching(contours: Sequence[Contour], text: str, unit: Unit) -> tuple[Contour, ...]:
     """Return the contours whose row contains a text: the filter of `/`."""
     sought = text.strip().lower()
-    return tuple(contour for contour in contours if sought in " ".join(cells_of(Row((contour,)), unit)).lower())
+    return tuple(contour for contour in contours if sought in " ".join(cells_of((contour,), unit)).lower())
 
 
 def cells_of(row: Row, unit: Unit) -> tuple[str, ...]:
     """Return a row's cells: number, kind, layer, pieces, length, size, and how many circles it folds."""
-    contour = row.first
+    contour = row[0]
     indent = "  " * contour.depth
-    more = f"x {len(row.contours)}" if len(row.contours) > 1 else ""
+    more = f"x {len(row)}" if len(row) > 1 else ""
     length = length_text(contour.length, unit)
     return (
         str(contour.number),
@@ -103,7 +94,7 @@ def table(rows: Sequence[Row], unit: Unit) -> Iterator[str]:
         )
         yield "  ".join(texts).rstrip()
         if number:
-            contour = rows[number - 1].first
+            contour = rows[number - 1][0]
             problems = [
                 f"{contour.kind} {text}" if contour.kind is ContourKind.OPEN else text for text in contour.problems
             ]

@@ -535,7 +535,7 @@ def test_an_arc_whose_ends_are_within_the_tolerance_is_a_circle() -> None:
 def test_equal_circles_fold_into_one_row() -> None:
     drawing = listed(dxf(*square(0, 0, 50), *(circle((10 + 5 * k, 10), 1) for k in range(6)), circle((10, 40), 2)))
     rows = rows_of(drawing.contours)
-    assert [len(row.contours) for row in rows] == [1, 1, 6]
+    assert [len(row) for row in rows] == [1, 1, 6]
     assert len(drawing.contours) == 8
     assert len(matching(drawing.contours, "hole", Unit.MM)) == 7
 
