@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections import Counter
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field, replace
+from math import inf
 from typing import Final, NamedTuple, NoReturn, Protocol
 
 from core.controls.control_tools import ToolId
@@ -179,8 +180,9 @@ GRAVEST_FIRST: Final = (Severity.ERROR, Severity.WARNING, Severity.INFO)
 class Log:
     """The findings of a run: one per rule and line, MAX_FINDINGS_OF_A_RULE per rule, MAX_ALIKE of one text.
 
-    A line that is run again, in a loop or a subprogram, may get a graver one too.
+    A line that is run again, in a loop or a subprogram, may get a graver one too, or one of a larger value.
 
+    `seen` has the largest value of each rule, line and severity, 0 for findings without one.
     `kept` counts kept findings by rule, INFO apart from the rest; `alike` counts INFO findings by rule and text;
     `left_out` has the lines of the findings not kept, by rule.  `rule_names` are a control's own alarm numbers, by the
     ids of the rules that controls share.
@@ -190,15 +192,16 @@ class Log:
     kept: Counter[tuple[str, bool]] = field(default_factory=Counter)
     alike: Counter[tuple[str, str]] = field(default_factory=Counter)
     left_out: dict[str, list[int | None]] = field(default_factory=dict)
-    seen: set[tuple[str, int | None, Severity]] = field(default_factory=set)
+    seen: dict[tuple[str, int | None, Severity], float] = field(default_factory=dict)
     rule_names: Mapping[str, str] = field(default_factory=dict)
 
     def add(self, finding: Finding) -> None:
-        """Keep a finding unless its line already has one of its rule as grave as it, or the limits are reached."""
+        """Keep a finding unless its line has one of its rule as grave and large as it, or the limits are reached."""
         as_grave = GRAVEST_FIRST[: GRAVEST_FIRST.index(finding.severity) + 1]
-        if any((finding.code, finding.line, severity) in self.seen for severity in as_grave):
+        value = finding.value or 0.0
+        if any(self.seen.get((finding.code, finding.line, severity), -inf) >= value for severity in as_grave):
             return
-        self.seen.add((finding.code, finding.line, finding.severity))
+        self.seen[finding.code, finding.line, finding.severity] = value
         informs = finding.severity is Severity.INFO
         rule, text = (finding.code, informs), (finding.code, finding.text if informs else "")
         if self.kept[rule] >= MAX_FINDINGS_OF_A_RULE or (informs and self.alike[text] >= MAX_ALIKE):

@@ -59,3 +59,13 @@ def test_an_offset_that_the_program_sets_or_changes_is_compared_too() -> None:
 def test_a_difference_is_reported_once_for_an_offset_and_a_tool() -> None:
     twice = program(2, "D1").replace("M30\n", f"{PASS.format(side='G41', offset='D1')}M30\n")
     assert len(findings_of(run_of(twice, "fanuc:a", t1=10.0, t2=12.0), "OFFSET")) == 1
+
+
+def test_every_offset_that_a_subprogram_is_called_with_is_reported() -> None:
+    """The line of G41 is the same each time; the deepest cut is not the first one."""
+    head = "G21 G17 G90\nT1 M6\n"
+    calls = "".join(f"G10 L12 P1 R{radius}\nM98 P9\n" for radius in (5.5, 4.9, 0.5, 10.0))
+    text = f"O1\n{head}{calls}M30\nO9\n{PASS.format(side='G41', offset='D1')}M99\n"
+    said = findings_of(run_of(text, "fanuc:a", t1=10.0), "OFFSET")
+    assert [finding.value for finding in said] == pytest.approx([0.5, 0.1, 4.5, 5.0])
+    assert [finding.severity is Severity.WARNING for finding in said] == [False, True, True, False]
