@@ -10,6 +10,7 @@ import numpy as np
 
 from core.controls.judging.contours_and_leads import MAX_LEAD_MOVES
 from core.controls.judging.judged_contour import JudgedContour, ToleratedArc, first_line, line_of
+from core.controls.judging.mirrored_arcs import mirrored_arcs
 from core.controls.judging.rapids_at_depth import rapid_walls
 from core.controls.moves import Plane
 from core.finding import Finding, Severity
@@ -43,6 +44,7 @@ def judged_findings(results: tuple[JudgedContour, ...]) -> tuple[Finding, ...]:
                 *_side_changes(result),
                 *_passed_over(result),
                 *_uneven_arc(uneven.get(result)),
+                *_mirrored_arcs(result),
                 *_cuts(result),
                 *_open_contour(result, gouged),
                 *_cut_away(result),
@@ -143,6 +145,24 @@ def _uneven_arc(arc: ToleratedArc | None) -> list[Finding]:
     text = "Arc radius {0} at its start, {1} at its end: judged at a radius between them, with {value} extra tolerance."
     severity = Severity.WARNING if arc.slack > CAM_ROUNDING else Severity.INFO
     return [Finding("ARC_RADII", severity, text, value=arc.slack, lengths=(arc.first, arc.last), line=arc.line)]
+
+
+def _mirrored_arcs(result: JudgedContour) -> Iterator[Finding]:
+    """Warn of arcs that may run on the wrong side of their chord.
+
+    Where they are most arcs of a contour, its corners are probably meant so: then only the first one is reported.
+    """
+    arcs, tangent = mirrored_arcs(result.surface)
+    doubtful = len(arcs) == 1 or len(arcs) < tangent
+    for arc in arcs if doubtful else arcs[:1]:
+        size = "longer" if arc.long else "shorter"
+        direction = "counterclockwise" if arc.counterclockwise else "clockwise"
+        text = (
+            f"This arc makes a corner at both ends. The {size} {direction} arc of the same radius is tangent there. "
+            "Check its direction, center and the sign of R."
+        )
+        severity = Severity.WARNING if doubtful else Severity.INFO
+        yield Finding("ARC-SIDE", severity, text, at=arc.at, line=line_of(arc.number))
 
 
 def _cuts(result: JudgedContour) -> list[Finding]:
