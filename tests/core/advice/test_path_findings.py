@@ -221,7 +221,7 @@ def test_roughing_that_skips_segments_or_has_no_room_is_reported() -> None:
     assert paths.verdict is not None
     none = RoughPass(0.2, (), paths.compensated, paths.verdict)
     assert messages(replace(paths, rough=(none,)), "ROUGH_EMPTY") == [
-        (Severity.WARNING, None, "Roughing that leaves 0.200 has no room: it is skipped.")
+        (Severity.WARNING, None, "No room for the 0.200 roughing pass: skipped.")
     ]
     points = (0.35, 0), (2, 0), (2, 1.5), (0, 1.5), (0, 0), (0.35, 0)
     near_corner = work(lines(*points), radius=0.25, lookahead=4, closed=True, stocks=(0.1,))

@@ -7,10 +7,10 @@ from itertools import pairwise
 import numpy as np
 import pytest
 
-from core.controls.compared_controls import compare
+from core.controls.compared_controls import Compared, compare
 from core.controls.judging.contours_and_leads import contour_of, contours_of, is_closed, split_where_it_closes
 from core.controls.judging.judged_findings import judged_findings
-from core.controls.judging.judged_runs import judge_run
+from core.controls.judging.judged_runs import deepest_gouge, judge_run
 from core.finding import Finding, Severity
 from core.geometry.path import Path
 from core.geometry.piece import Arc, Line, Turn
@@ -466,10 +466,10 @@ def test_closed_or_single_contours_are_not_reported_as_moves_between_contours() 
 
 
 def test_the_comparison_of_controls_reports_the_gouge() -> None:
-
-    tools = end_mills({1: 6.0})
-    rows = {row.control: row for row in compare(ring_and_key(3).encode(), tools, Unit.MM)}
-    assert getattr(rows["linuxcnc"], "gouge", 0.0) >= 2.0 - 1e-6
+    rows = compare(ring_and_key(3).encode(), end_mills({1: 6.0}), Unit.MM)
+    (row,) = (row for row in rows if row.control == "linuxcnc")
+    assert isinstance(row, Compared)
+    assert deepest_gouge(row.results)[0] >= 2.0 - 1e-6
 
 
 def test_a_gouge_of_a_line_out_and_back_at_a_corner_is_a_warning() -> None:
