@@ -23,6 +23,7 @@ from core.controls.iso.modal_state import EXTERNAL_OFFSET, ORIGIN, TAKEN_AS_ZERO
 from core.controls.iso.reader import Block, whole, whole_word
 from core.controls.moves import Point3, flat, solid
 from core.controls.transform import UNSCALED, Transform, rotated
+from core.tolerance import ON_PATH
 from core.units import Unit, from_mm, to_mm
 
 _LENGTH_OFFSET_L: Final = 10
@@ -431,7 +432,14 @@ class MacroMachine(Machine):
         self._mark_unknown([axis for axis in range(3) if "XYZ"[axis] in block.words], block)
 
     def _mark_unknown(self, axes: list[int], block: Block) -> None:
-        """Mark axes as being at a machine position until their next absolute words."""
+        """Mark axes as being at a machine position until their next absolute words; warn if X or Y goes there low."""
+        height = self.position[2] - self.shift[2]
+        if {0, 1} & set(axes) and 2 not in self.unknown and height < -ON_PATH:
+            named = " and ".join("XYZ"[axis] for axis in axes if axis < 2)
+            text = (
+                f"The tool is at Z {{0}} when {named} leaves for the machine's point. Raise it in a block before this."
+            )
+            self.log.warn("HOME", text, block.at("G"), lengths=(height,))
         self.unknown.update(axes)
         if axes:
             text = "The machine's points are not known to cutcomp; the move there is not shown."

@@ -1229,3 +1229,29 @@ def test_a_warning_on_a_line_is_kept_after_information_on_its_first_run(first: s
     done = ran(REPEATED.format(first=first, second=second))
     assert done.stopped_at is None
     assert [finding.code for finding in done.findings if finding.severity is Severity.WARNING] == ["OFFSET"]
+
+
+@pytest.mark.parametrize("control", ["fanuc:a", "haas:a"])
+@pytest.mark.parametrize(
+    ("home", "axes"),
+    [
+        ("G91 G28 X0. Y0. Z0.", "X and Y"),
+        ("G91 G28 Y0.", "Y"),
+        ("G53 G0 X-100. Z0.", "X"),
+        ("G91 G28 Z0.\nG28 X0. Y0.", ""),
+        ("G53 G0 Z0.\nG53 X0. Y0.", ""),
+        ("G0 Z1.\nG91 G28 X0. Y0. Z0.", ""),
+        ("G91 G28 X0. Y0. Z10.", ""),
+    ],
+)
+def test_x_and_y_that_leave_for_a_machine_point_at_depth_are_a_warning(control: str, home: str, axes: str) -> None:
+    run = ran(f"{HEAD}G54 G0 X50.\nZ5.\nG1 Z-5. F100.\nX60.\n{home}\nM30\n", control)
+    warnings = [finding for finding in findings_of(run, "HOME") if finding.severity is Severity.WARNING]
+    assert [(finding.line, finding.lengths) for finding in warnings] == ([(6, (-5.0,))] if axes else [])
+    assert all(f"when {axes} leaves" in finding.text for finding in warnings)
+
+
+def test_the_height_at_a_machine_point_is_that_of_the_work_offset() -> None:
+    text = f"{HEAD}G10 L2 P1 Z-300.\nG54 G0 X50.\nZ5.\nG91 G28 X0.\nM30\n"
+    assert {finding.severity for finding in findings_of(ran(text), "HOME")} == {Severity.INFO}
+    assert findings_of(ran(text.replace("Z5.", "Z-2.")), "HOME")[0].lengths == (-2.0,)
