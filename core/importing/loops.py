@@ -51,7 +51,7 @@ def chained(pieces: Sequence[Piece], tolerance: float) -> tuple[list[Chain], lis
     nodes = nodes_of(curves, tolerance)
     for chain in _Chainer(curves, nodes).run():
         chains.append(Chain([Link(rows[link.row], link.forward) for link in chain.links], chain.closed))
-    crowded = [(nodes.places[node], nodes.degree(node)) for node in range(len(nodes.places)) if nodes.degree(node) > 2]
+    crowded = [(at, len(meeting)) for at, meeting in zip(nodes.places, nodes.pieces, strict=True) if len(meeting) > 2]
     return chains, sorted(crowded)
 
 

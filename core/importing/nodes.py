@@ -29,15 +29,11 @@ NEAR_BY_PATH: Final = 4.0
 
 @dataclass(frozen=True, eq=False, slots=True)
 class Nodes:
-    """For each piece its nodes (start, end); for each node its pieces and the position of its first end."""
+    """For each piece its nodes (start, end); for each node the piece of each end, and the place of the first one."""
 
     of_piece: list[tuple[int, int]]
     pieces: list[list[int]]
     places: list[Point]
-
-    def degree(self, node: int) -> int:
-        """Return the number of ends that meet at a node."""
-        return len(self.pieces[node])
 
 
 class Groups:
@@ -100,7 +96,7 @@ def _numbered(ends: Sequence[Point], groups: Groups) -> Nodes:
 
 def _join_loose(pieces: Sequence[Piece], nodes: Nodes, groups: Groups, tolerance: float) -> None:
     """Join loose ends with the nearest nodes within the tolerance, nearest pairs first."""
-    loose = [node for node in range(len(nodes.places)) if nodes.degree(node) == 1]
+    loose = [node for node, meeting in enumerate(nodes.pieces) if len(meeting) == 1]
     if not loose:
         return
     points = shapely.points(nodes.places)

@@ -223,18 +223,18 @@ def _open_contour(result: JudgedContour, gouged: set[float]) -> list[Finding]:
 def _cut_away(result: JudgedContour) -> Iterator[Finding]:
     """Warn of walls that are not judged, or not above a height, because another pass cuts them away."""
     for wall in result.cut_away:
-        lines, others = _lines_of(wall.numbers), _lines_of(wall.cut_away_by or wall.numbers)
+        lines, others = _lines_of(wall.path), _lines_of(wall.cut_away_by or wall.path)
         if wall.stands:
             text = f"The pass of {others} cuts the wall of {lines} away above Z {{0}}. "
         else:
             text = f"The pass of {lines} is taken for roughing: that of {others} cuts its wall away. "
         text += "If the wall should stay, it is gouged."
         lengths = (wall.top,) if wall.stands else ()
-        yield Finding("ROUGHING", Severity.WARNING, text, lengths=lengths, line=line_of(wall.numbers[0]))
+        yield Finding("ROUGHING", Severity.WARNING, text, lengths=lengths, line=first_line(wall.path))
 
 
-def _lines_of(numbers: tuple[float, float]) -> str:
-    first, last = map(int, numbers)
+def _lines_of(path: Path) -> str:
+    first, last = map(int, path.numbers[[0, -1]])
     return f"line {first}" if first == last else f"lines {first}-{last}"
 
 

@@ -61,34 +61,24 @@ class ClosedPass:
         """The same key for passes of one shape."""
         return path_key(self.path)
 
-    @property
-    def numbers(self) -> tuple[float, float]:
-        """The numbers of its first and last move."""
-        return float(self.path.numbers[0]), float(self.path.numbers[-1])
-
 
 @dataclass(frozen=True, eq=False, slots=True)
 class StandingWall:
     """A wall from its lowest point up to the height above which another pass cuts it away, if one does.
 
-    `cut_away_by` has the numbers of that pass's first and last move; `shape` is that of the passes that make the wall.
+    `cut_away_by` is the path of that pass; `shape` is that of the passes that make the wall.
     """
 
     path: Path
     low: float = -inf
     top: float = inf
-    cut_away_by: tuple[float, float] | None = None
+    cut_away_by: Path | None = None
     shape: PathKey = ()
 
     @property
     def stands(self) -> bool:
         """False for a roughing pass: nothing of its wall stays."""
         return self.top > self.low + ON_PATH
-
-    @property
-    def numbers(self) -> tuple[float, float]:
-        """The numbers of its first and last move."""
-        return float(self.path.numbers[0]), float(self.path.numbers[-1])
 
 
 def walls_of(walls: Sequence[StandingWall], passes: Sequence[ClosedPass]) -> list[StandingWall]:
@@ -185,5 +175,5 @@ def standing_walls(passes: Sequence[ClosedPass], side: Side) -> list[StandingWal
             walls.append(StandingWall(path, low, shape=key))
         else:
             highest = max(lowest_cuts, key=lambda cut: cut.high)
-            walls.append(StandingWall(path, low, highest.high, highest.numbers, key))
+            walls.append(StandingWall(path, low, highest.high, highest.path, key))
     return walls
