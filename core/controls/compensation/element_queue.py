@@ -49,29 +49,27 @@ class ElementQueue(Recorder):
     def hold(self, element: Element) -> None:
         """Take in the next element, and run the one before it, whose end is now known."""
         self.note(element)
-        if not element.moves and self.held is not None:
+        held = self.held
+        if not element.moves and held is not None:
             self.standing.append(element)
             return
-        if self.held is not None:
-            joint = self.joint(self.held, element)
-            self.release(joint.end)
+        if held is not None:
+            joint = self.joint(held, element)
+            self.release(held, joint.end)
             self.run_joint(joint, element, self.offset)
             self.start = joint.start
         self.held = element
         self.elements += 1
 
-    def release(self, end: Point) -> None:
+    def release(self, held: Element, end: Point) -> None:
         """Run the held element to a point, and the waiting moves along the tool axis there."""
-        if self.held is not None and self.start is not None and runs_back(self.held, self.start, end):
-            self.backwards(self.held)
-        self.run_held(end)
+        if self.start is not None and runs_back(held, self.start, end):
+            self.backwards(held)
+        self.run_held(held, end)
 
-    def run_held(self, end: Point) -> None:
+    def run_held(self, held: Element, end: Point) -> None:
         """Run the held element to a point without checking its direction."""
-        held, standing = self.held, self.standing
-        self.held, self.standing = None, []
-        if held is None:
-            return
+        standing, self.held, self.standing = self.standing, None, []
         feed = self.feed_of(held)
         held = held if feed == held.feed else held._replace(feed=feed)
         if held.turn:
@@ -84,7 +82,7 @@ class ElementQueue(Recorder):
     def release_at_end(self) -> None:
         """Run the held element to the offset point at its end."""
         if self.held is not None:
-            self.release(offset_end(self.held, self.offset))
+            self.release(self.held, offset_end(self.held, self.offset))
         self.start = None
 
 
@@ -158,7 +156,7 @@ class OneMoveQueue(ElementQueue):
         if self.held is not None:
             end = offset_end(self.held, self.offset)
             self._check(self.held, end, place)
-            self.run_held(end)
+            self.run_held(self.held, end)
 
     def run_out_at_stop(self) -> None:
         """Program stop: run the held move to its own offset point, which no later corner changes."""
@@ -168,10 +166,10 @@ class OneMoveQueue(ElementQueue):
         self._run_out(held)
         self.held, self.start, self.ran = held, None, True
 
-    def run_held(self, end: Point) -> None:
+    def run_held(self, held: Element, end: Point) -> None:
         """Run the held move to a point without checking its direction; if it ran at a stop, do not run it again."""
         if not self.ran:
-            super().run_held(end)
+            super().run_held(held, end)
             return
         standing, self.held, self.standing, self.ran = self.standing, None, [], False
         for element in standing:
@@ -265,7 +263,7 @@ class OneMoveQueue(ElementQueue):
         if joint.corner is CornerKind.INSIDE or (joint.corner is CornerKind.OUTSIDE and not element.turn):
             self._check(held, joint.end, element)
         unchecked = self.ran and not self.standing and joint.corner is CornerKind.INSIDE
-        self.run_held(joint.end)
+        self.run_held(held, joint.end)
         self.run_joint(joint, element, self.offset)
         self.note(element)
         self.held, self.start = element, None if unchecked else joint.start

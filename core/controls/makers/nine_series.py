@@ -288,12 +288,12 @@ class NineSeries(ElementQueue, Control):
             self._circular_exit(element)
         held, block = self.held, self.exit_block
         if held is not None and block is not None and not {"I", "J", "K"}.isdisjoint(block.words):
-            self.release(corner_rules.vector_end(held, self.vector_of(block) or (0.0, 0.0), self.offset))
+            self.release(held, corner_rules.vector_end(held, self.vector_of(block) or (0.0, 0.0), self.offset))
         elif held is None or self.type_a or self.offset == 0.0:
             self.release_at_end()
         else:
             joint = self._with_notice(corner_rules.exit_joint(held, element, self.offset, self.rules.outside), element)
-            self.release(joint.end)
+            self.release(held, joint.end)
             self.run_joint(joint, element, self.offset)
         self._cancel()
         super().travel(element)

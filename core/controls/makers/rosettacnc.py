@@ -196,8 +196,8 @@ class NistEntry(ElementQueue, RosettaCnc):
             text = "The arc radius {0} must be larger than the cutter radius {1}. Use a smaller cutter."
             self.log.stop("C7", text, element, lengths=(element.radius, abs(self.offset)))
         self.note(element)
-        self.held = self.before = element
-        self.run_held(offset_end(element, self.offset))
+        self.before = element
+        self.run_held(element, offset_end(element, self.offset))
 
 
 class EasyEntry(NistEntry):
@@ -215,7 +215,7 @@ class EasyEntry(NistEntry):
             self.note(element)
             self.standing.append(element)
         else:
-            self.run_held(offset_start(element, self.offset))
+            self.run_held(self.held, offset_start(element, self.offset))
             self.follow(element)
 
     def compensation_off(self, block: Block) -> None:
@@ -227,7 +227,7 @@ class EasyEntry(NistEntry):
         """End of the program: end a first move that still waits at its own offset point."""
         if self.held is not None:
             self.before = self.held
-            self.run_held(offset_end(self.held, self.offset))
+            self.run_held(self.held, offset_end(self.held, self.offset))
 
 
 VARIANTS: Final[Mapping[str, type[Control]]] = {"nist": NistEntry, "easy": EasyEntry, "normal": NormalEntry}

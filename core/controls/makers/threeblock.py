@@ -237,14 +237,13 @@ class ThreeBlock(ElementQueue, Control):
         text = f"{what}: this block runs backwards and gouges without an alarm; use a smaller cutter."
         self.log.warn(rule, text, element)
 
-    def release(self, end: Point) -> None:
+    def release(self, held: Element, end: Point) -> None:
         """Run the held element to a point; trims at both its ends mean a narrow feature, else it is a step."""
-        held = self.held
-        if held is not None and self.start is not None:
+        if self.start is not None:
             square = offset_start(held, self.offset), offset_end(held, self.offset)
             self.narrow = self.start != square[0] and end != square[1]
             self._quick(held, self.start, end)
-        super().release(end)
+        super().release(held, end)
 
     def _quick(self, element: Element, start: Point, end: Point) -> None:
         feed, length = self.feed_of(element), dist(start, end)
