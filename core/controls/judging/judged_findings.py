@@ -54,6 +54,7 @@ def judged_findings(results: tuple[JudgedContour, ...]) -> tuple[Finding, ...]:
                 *_uncut(result),
                 *_crossing(result),
                 *_uncompensated(result),
+                *_low_rapids(result),
                 *_cuts_of_others(result),
             )
         )
@@ -86,6 +87,8 @@ def _side_changes(result: JudgedContour) -> Iterator[Finding]:
 def _uncompensated(result: JudgedContour) -> Iterator[Finding]:
     """Warn of moves without compensation through a contour; no error, since its wall may be cut away by then."""
     for cut in result.uncompensated_cuts:
+        if cut.above:
+            continue
         code, move = ("RAPID", "rapid") if cut.rapid else ("FEED", "move without compensation")
         at, line = cut.gouge.surface_at, line_of(cut.gouge.path_number)
         text = (
@@ -93,6 +96,21 @@ def _uncompensated(result: JudgedContour) -> Iterator[Finding]:
             "Raise the tool before it."
         )
         yield Finding(code, Severity.WARNING, text, at=at, value=cut.gouge.depth, lengths=(cut.height,), line=line)
+
+
+def _low_rapids(result: JudgedContour) -> Iterator[Finding]:
+    """Warn of rapids below zero over contours that are cut lower: no program says how high their walls are."""
+    cuts = [cut for cut in result.uncompensated_cuts if cut.above]
+    if not cuts:
+        return
+    lines = list(dict.fromkeys(str(line_of(cut.gouge.path_number)) for cut in cuts))
+    listed = ", ".join(lines[:MAX_LINES]) + (" ..." if len(lines) > MAX_LINES else "")
+    named = f"rapid of line {listed} runs" if len(lines) == 1 else f"rapids of lines {listed} run"
+    lowest = min(cuts, key=lambda cut: cut.height)
+    text = f"The {named} below Z 0 over a wall that is cut deeper, first at X {{x}} Y {{y}}, lowest at Z {{0}}. "
+    text += "Check the sign of Z, and that the tool clears the part."
+    at, line = cuts[0].gouge.surface_at, line_of(cuts[0].gouge.path_number)
+    yield Finding("LOW-RAPID", Severity.WARNING, text, at=at, lengths=(lowest.height,), line=line)
 
 
 def _cuts_of_others(result: JudgedContour) -> Iterator[Finding]:

@@ -3,23 +3,32 @@
 A program that forgets to raise the tool after G40 drives it through the wall it has just cut.  Feed moves are checked
 only if they follow a contour at the same height: without compensation others may cut anything.  Rapids within a
 compensated stretch at its depth are reported too.
+
+A rapid below zero, where the top of a part usually is, may also cut the upper part of a wall, unless feed moves before
+it have cut all that away.
 """
 
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
+from math import inf
+from typing import Final
 
 import numpy as np
+from shapely import LineString, Point, unary_union
 
 from core.controls.control_run import ControlRun, Stretch
 from core.controls.judging.moves_above import surface_rows
 from core.controls.moves import Move, Moves, Plane
 from core.geometry.nearby import near_pairs
-from core.geometry.path import Flags, Path, runs_of
+from core.geometry.path import Flags, Path, chords_of, runs_of
 from core.tolerance import ON_PATH
 from core.verify.judge import judge
 from core.verify.verdict import Gouge
+
+CLEARED: Final = 0.05
+"""Millimeters that the areas of cuts may be off, since shapely's circles are polygons."""
 
 
 @dataclass(frozen=True, eq=False, slots=True)
@@ -58,11 +67,15 @@ def rapid_walls(stretch: Stretch) -> tuple[Move, ...]:
 
 @dataclass(frozen=True, slots=True)
 class UncompensatedCut:
-    """The cut of a move without compensation into a contour, its height in millimeters, and if it is a rapid."""
+    """The cut of a move without compensation into a contour, its height in millimeters, and if it is a rapid.
+
+    `above`: the rapid is below zero and above the cut of the contour, so that the wall may end below it.
+    """
 
     gouge: Gouge
     height: float
     rapid: bool
+    above: bool = False
 
 
 def moves_through(run: ControlRun, contours: Sequence[CutContour]) -> tuple[UncompensatedCut, ...]:
@@ -80,11 +93,18 @@ def moves_through(run: ControlRun, contours: Sequence[CutContour]) -> tuple[Unco
         moves = run.moves.part(int(rows[0]) - 1, int(rows[-1]) + 1)
         before = max(int(np.searchsorted(ends, rows[0], side="right")) - 1, 0)
         cuts += _cuts(moves, run.stretches[before].radius, contours, rapid=True)
+    for row in np.flatnonzero(_low_rapids(run, inf)).tolist():
+        below_zero = _below_zero(run.moves.part(row - 1, row + 1))
+        if below_zero is not None:
+            before = max(int(np.searchsorted(ends, row, side="right")) - 1, 0)
+            cuts += _cuts_above(run, row, below_zero, run.stretches[before].radius, contours)
     for stretch, first, last in _adjoining_feeds(run):
         own_contours = [contour for contour in contours if stretch.has_part(contour.stretch)]
         cuts += _cuts(run.moves.part(first, last), stretch.radius, own_contours, rapid=False)
-    # a wall that is already cut takes precedence over one that is yet to be cut
-    ranked = sorted(cuts, key=lambda cut: (cut.gouge.surface_number < cut.gouge.path_number, cut.gouge.depth))
+    # a cut at depth takes precedence, and a wall that is already cut over one that is yet to be cut
+    ranked = sorted(
+        cuts, key=lambda cut: (not cut.above, cut.gouge.surface_number < cut.gouge.path_number, cut.gouge.depth)
+    )
     deepest = {int(cut.gouge.path_number): cut for cut in ranked}
     return tuple(deepest[line] for line in sorted(deepest))
 
@@ -139,3 +159,45 @@ def _cuts(moves: Moves, radius: float, contours: Sequence[CutContour], *, rapid:
         verdict = judge(contour.path, contour.stretch.side, radius, path, contour.accepted, measures_uncut=False)
         cuts += [UncompensatedCut(gouge, height, rapid) for gouge in verdict.gouges]
     return cuts
+
+
+def _below_zero(move: Moves) -> Moves | None:
+    """Return the part below zero of a straight move, given with its start point; None if it has none."""
+    first, last = move.points
+    low, high = sorted((float(first[2]), float(last[2])))
+    if low >= -ON_PATH:
+        return None
+    if high <= 0.0:
+        return move
+    crossing = first + (last - first) * (first[2] / (first[2] - last[2]))
+    points = np.array([crossing, last] if last[2] < 0.0 else [first, crossing])
+    return replace(move, points=points, centers=points)
+
+
+def _cuts_above(
+    run: ControlRun, row: int, move: Moves, radius: float, contours: Sequence[CutContour]
+) -> list[UncompensatedCut]:
+    """Return the cuts of a rapid into contours that are cut lower, unless feed moves before have cut all that away."""
+    path, low, high = move.path(), float(move.points[:, 2].min()), float(move.points[:, 2].max())
+    cuts = list[UncompensatedCut]()
+    for contour in contours:
+        if high <= contour.top + ON_PATH or not any(True for _ in near_pairs(path.boxes, contour.path.boxes, radius)):
+            continue
+        verdict = judge(contour.path, contour.stretch.side, radius, path, contour.accepted, measures_uncut=False)
+        cuts += [UncompensatedCut(gouge, low, rapid=True, above=True) for gouge in verdict.gouges]
+    return [cut for cut in cuts if not _is_cut_away(run, row, low, cut.gouge.at, radius)]
+
+
+def _is_cut_away(run: ControlRun, row: int, height: float, center: tuple[float, float], radius: float) -> bool:
+    """True if feed moves before a row have cut the tool's circle about a center free, at a height or below."""
+    moves = run.moves.part(0, row)
+    feeds = moves.low(height) & ~moves.rapid & moves.moving_in(Plane.XY)
+    ends, arms = moves.points[:, :2], (moves.points - moves.centers)[:, :2]
+    starts = np.vstack((ends[:1], ends[:-1]))
+    # a line has its end as center: its arm has no length
+    reach = 2.0 * radius + np.hypot(arms[:, :1], arms[:, 1:])
+    far = (np.maximum(starts, ends) + reach < center) | (np.minimum(starts, ends) - reach > center)
+    near = np.flatnonzero(feeds & ~far.any(axis=1)).tolist()
+    chords = [chords_of(moves.part(each - 1, each + 1).path(), CLEARED / 2.0) for each in near]
+    swept = unary_union([LineString(points).buffer(radius) for points in chords])
+    return bool(swept.covers(Point(center).buffer(radius - CLEARED)))

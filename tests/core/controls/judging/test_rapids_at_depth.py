@@ -15,11 +15,11 @@ BORE = "G21 G17 G90 G40\nT1 M6\nG0 X20. Y20.\nZ5.\nG1 Z-5. F300\nG41 D1 X30.\nG3
 """A 20 mm hole about X20 Y20, cut by a 10 mm tool."""
 
 
-def rapids(program: str, control: str = "fanuc:a") -> list[Finding]:
+def rapids(program: str, control: str = "fanuc:a", code: str = "RAPID") -> list[Finding]:
     """The findings on rapids at depth."""
     run = run_of(program, control, t1=10.0)
     assert run.stopped_at is None, run.findings
-    return [finding for finding in judged_findings(judge_run(run)) if finding.code == "RAPID"]
+    return [finding for finding in judged_findings(judge_run(run)) if finding.code == code]
 
 
 @pytest.mark.parametrize("control", CONTROLS)
@@ -170,3 +170,41 @@ def test_a_rapid_names_the_wall_that_is_already_cut() -> None:
     second = "G41 D1 G1 X80.\nG3 I-10.\nG40 G1 X70.\nG0 Z5.\nM30\n"
     (warning,) = rapids(f"{BORE}G0 X70.\n{second}")
     assert "contour of line 7 at X 30.000" in sentence(warning, Unit.MM)
+
+
+@pytest.mark.parametrize("control", CONTROLS)
+def test_a_rapid_below_zero_over_a_deeper_wall_is_reported(control: str) -> None:
+    """The retract has a wrong sign: Z-1 for Z1."""
+    program = f"{BORE}G0 Z-1.\nX70.\nX20.\nZ50.\nM30\n"
+    (warning,) = rapids(program, control, "LOW-RAPID")
+    assert (warning.line, warning.severity) == (10, Severity.WARNING)
+    assert sentence(warning, Unit.MM) == (
+        "The rapids of lines 10, 11 run below Z 0 over a wall that is cut deeper, first at X 30.000 Y 20.000, "
+        "lowest at Z -1.000. Check the sign of Z, and that the tool clears the part."
+    )
+    assert not rapids(program.replace("Z-1.", "Z1."), control, "LOW-RAPID")
+    assert not rapids(program.replace("Z-1.", "Z-5."), control, "LOW-RAPID")
+
+
+@pytest.mark.parametrize(
+    ("after", "lines"),
+    [
+        # by hand: the tool reaches the wall at X25, a tenth of the way: at Z-4, at Z-2.5, and at Z0.5 above it
+        ("G0 X70. Z5.\n", [9]),
+        ("G0 X70. Z20.\n", [9]),
+        ("G0 X70. Z50.\n", []),
+        ("G0 X24. Z-1.\nX16.\n", []),
+        ("G0 Z5.\nX70.\nX20. Z-5.\n", [11]),
+        ("G0 Z5.\nX70.\nX20. Z-.1\n", []),
+    ],
+)
+def test_only_the_part_of_a_rapid_below_zero_counts(after: str, lines: list[int]) -> None:
+    findings = rapids(f"{BORE}{after}G0 Z50.\nM30\n", code="LOW-RAPID")
+    assert [finding.line for finding in findings] == lines
+
+
+@pytest.mark.parametrize(("floor", "count"), [("-3.", 0), ("-1.", 1)])
+def test_a_rapid_where_the_material_is_cut_away_is_not_reported(floor: str, count: int) -> None:
+    """The strip that the rapid at Z-2 runs along is faced to the floor before."""
+    faced = BORE.replace("G1 Z-5. F300\n", f"G1 Z{floor} F300\nX80.\nX20.\nG1 Z-5.\n")
+    assert len(rapids(f"{faced}G0 Z-2.\nX70.\nZ50.\nM30\n", code="LOW-RAPID")) == count
