@@ -109,7 +109,7 @@ class FileActions(DerivationActions):
     def _undo_or_redo(self, action: str, label: str | None, changed: Callable[[], Session], message: str) -> None:
         """Undo or redo; a screen with its own document does so on that document instead."""
         if isinstance(self.screen, BaseScreen):
-            if self.screen.take_over(action):
+            if self.screen.undo_or_redo_own_document(action):
                 return
             self.screen.forget_typed()
         if label is None:

@@ -201,7 +201,7 @@ class ProofScreen(BaseScreen):
         self.host.keep_document(self.document)
         self._run_request(replace(self.request, text=text))
 
-    def take_over(self, action: str, /) -> bool:
+    def undo_or_redo_own_document(self, action: str, /) -> bool:
         """Undo or redo an edit of the NC text."""
         if action == "undo":
             self._step(action, self.document.text.undo(), "Undone. Ctrl+Y brings it back.")

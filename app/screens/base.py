@@ -135,7 +135,7 @@ class BaseScreen(Screen[None]):
         """The definition of the field with the cursor; None if the cursor is not in a field."""
         return None
 
-    def take_over(self, _action: str, /) -> bool:
+    def undo_or_redo_own_document(self, _action: str, /) -> bool:
         """Undo or redo on this screen's own document, if it has one; return whether the action was handled."""
         return False
 

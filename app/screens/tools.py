@@ -347,8 +347,8 @@ def _faults(tool: Tool, unit: Unit) -> list[str]:
 def _uses(program: Program, number: int) -> list[str]:
     """Return the calls of a tool as the tool and as the finish tool, each with its blocks, as texts."""
     return [
-        f"{what} of block{'s' if blocks[1:] else ''} {', '.join(map(str, blocks))}"
-        for what, blocks in _calls(program, number)
+        f"{role} of block{'s' if blocks[1:] else ''} {', '.join(map(str, blocks))}"
+        for role, blocks in _calls(program, number)
         if blocks
     ]
 

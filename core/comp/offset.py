@@ -71,9 +71,9 @@ def offset(contour: Path, side: Side, radius: float) -> RawChain:
     centers[joints] = np.where(outside, as_complex(contour.points)[1:-1], centers[joints])
     numbers = np.repeat(contour.numbers, 2)[:-1]
     numbers[joints] += 0.5
-    taken = np.ones(slots, np.bool_)
-    taken[joints] = link
-    half_steps = taken.nonzero()[0]
+    in_use = np.ones(slots, np.bool_)
+    in_use[joints] = link
+    half_steps = in_use.nonzero()[0]
     starts = np.append(points[half_steps], points[-1])
     _close_circles(starts, contour, half_steps)
     raw = Path(coordinates(starts), coordinates(centers[half_steps]), turns[half_steps], numbers[half_steps])

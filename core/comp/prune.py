@@ -90,19 +90,19 @@ class _Walk:
         low, high, deleted, agenda, others = self._low, self._high, self.deleted, self._agenda, self._others
         columns = others.b, others.a, others.along_a, others.along_b, others.a_ends, others.b_ends
         rows = zip(*(column.tolist() for column in columns), strict=True)
-        piece, taken = -1, True
+        piece, crossing_taken = -1, True
         for row, (b, a, along_a, along_b, a_ends, b_ends) in enumerate(rows):
             if b != piece:
                 self._settle(b)
-                piece, taken = b, False
+                piece, crossing_taken = b, False
             start, first, last = low[b], low[a], high[a]
-            if taken or deleted[a] or along_b < start - ON_PATH:
+            if crossing_taken or deleted[a] or along_b < start - ON_PATH:
                 continue
             if along_a < first - ON_PATH or along_a > last + ON_PATH or (b_ends and along_a <= first + ON_PATH):
                 continue
             if along_b <= start + ON_PATH and (a_ends or along_a >= last - ON_PATH):
                 continue
-            high[a], low[b], taken = along_a, along_b, True
+            high[a], low[b], crossing_taken = along_a, along_b, True
             deleted[a + 1 : b] = b"\1" * (b - a - 1)
             self.deleting_rows.append(row)
             if high[b] < along_b - ON_PATH:

@@ -304,8 +304,8 @@ def _within(first: ChordLevels, second: ChordLevels) -> list[Floats]:
             low -= 1
             guess = _closest_member(first[high].middle, second[low].middle, guess)
     chords, other_chords = first[0], second[0]
-    apart = np.maximum(*(np.abs(other_chords.vectors_to(guess, end)) for end in chords.ends))
-    within = [apart + chords.slack + other_chords.slack[guess]]
+    distances = np.maximum(*(np.abs(other_chords.vectors_to(guess, end)) for end in chords.ends))
+    within = [distances + chords.slack + other_chords.slack[guess]]
     while len(within) < len(first):
         within.append(np.maximum.reduceat(within[-1], np.arange(0, len(within[-1]), MEMBERS_PER_RUN)))
     return within
@@ -316,9 +316,9 @@ def _closest_member(points: Points, middles: Points, runs: Rows) -> Rows:
     closest, least = np.zeros(len(points), np.intp), np.full(len(points), np.inf)
     for step in NEIGHBOR_OFFSETS:
         members = np.minimum(np.maximum(runs * MEMBERS_PER_RUN + step, 0), len(middles) - 1)
-        apart = np.abs(points - middles.take(members))
-        closer = apart < least
-        closest, least = np.where(closer, members, closest), np.where(closer, apart, least)
+        distances = np.abs(points - middles.take(members))
+        closer = distances < least
+        closest, least = np.where(closer, members, closest), np.where(closer, distances, least)
     return closest
 
 
@@ -339,23 +339,23 @@ def _contenders(
     middle, half = chords.middle.take(i), chords.half.take(i)
     vectors = other.vectors_to(j, middle)
     # a NaN counts as nearest, and then no other chord is known to be farther
-    apart = np.fmax(np.abs(vectors), np.finfo(float).tiny)
-    slope = (vectors.conj() * half).real / apart
+    distances = np.fmax(np.abs(vectors), np.finfo(float).tiny)
+    slope = (vectors.conj() * half).real / distances
     # a vector as short as the rounding of coordinates has no direction
-    rounding = ROUNDING_SHARE * np.abs(middle) * np.abs(half) / apart
-    least = apart - rounding - chords.slack.take(i) - other.slack.take(j)
-    keep = (~(least - np.abs(slope) > limit)).nonzero()[0]
-    i, j, apart, least, slope = i[keep], j[keep], apart[keep], least[keep], slope[keep]
+    rounding = ROUNDING_SHARE * np.abs(middle) * np.abs(half) / distances
+    nearest_possible = distances - rounding - chords.slack.take(i) - other.slack.take(j)
+    keep = (~(nearest_possible - np.abs(slope) > limit)).nonzero()[0]
+    i, j, distances, nearest_possible, slope = i[keep], j[keep], distances[keep], nearest_possible[keep], slope[keep]
     if not len(i):
         return i, j
     begins = changes(i)
     counts = np.diff(begins, append=len(i))
-    best = (apart == np.minimum.reduceat(apart, begins).repeat(counts)).nonzero()[0]
+    best = (distances == np.minimum.reduceat(distances, begins).repeat(counts)).nonzero()[0]
     best = best[changes(i[best])]
-    nearest, room = j[best], tie + chords.slack.take(i[best]) + other.slack.take(j[best])
+    nearest, allowance = j[best], tie + chords.slack.take(i[best]) + other.slack.take(j[best])
     middle, half = chords.middle.take(i[best]), chords.half.take(i[best])
-    at_start, at_end = (np.abs(other.vectors_to(nearest, end)) + room for end in (middle - half, middle + half))
-    farther = (least - slope > at_start.repeat(counts)) & (least + slope > at_end.repeat(counts))
+    at_start, at_end = (np.abs(other.vectors_to(nearest, end)) + allowance for end in (middle - half, middle + half))
+    farther = (nearest_possible - slope > at_start.repeat(counts)) & (nearest_possible + slope > at_end.repeat(counts))
     return i[~farther], j[~farther]
 
 

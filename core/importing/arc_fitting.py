@@ -142,23 +142,23 @@ def _open_run(points: Points, fit: float) -> tuple[list[Piece], float]:
 def _longest(points: Points, at: int, fit: float, make: _Make) -> tuple[_Fit | None, int]:
     """Return the longest fit from a point, and its end: steps double while they fit, then the last one is bisected."""
     last = len(points) - 1
-    good, made, step = at + 1, None, MIN_LINES
+    end, longest, step = at + 1, None, MIN_LINES
     high = last + 1
     while at + step <= last:
-        here = make(points[at : at + step + 1], fit)
-        if here is None:
+        candidate = make(points[at : at + step + 1], fit)
+        if candidate is None:
             high = at + step
             break
-        good, made = at + step, here
+        end, longest = at + step, candidate
         step *= 2
-    while high - good > 1:
-        middle = min((good + high) // 2, last)
-        here = make(points[at : middle + 1], fit)
-        if here is None:
+    while high - end > 1:
+        middle = min((end + high) // 2, last)
+        candidate = make(points[at : middle + 1], fit)
+        if candidate is None:
             high = middle
         else:
-            good, made = middle, here
-    return made, good
+            end, longest = middle, candidate
+    return longest, end
 
 
 def _straight(points: Points, fit: float) -> _Fit | None:

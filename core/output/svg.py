@@ -26,11 +26,11 @@ MARGIN_SHARE: Final = 0.06
 
 @dataclass(frozen=True, slots=True)
 class Pen:
-    """The look of a role: `weight` in pixels, `dashes` in SVG's notation, and its `words` in the legend."""
+    """The look of a role: `weight` in pixels, `dashes` in SVG's notation, and its text in the `legend`."""
 
     color: str
     weight: float
-    words: str
+    legend: str
     dashes: str = ""
 
 
@@ -137,25 +137,25 @@ def _axes(scene: Scene, box: Box) -> Iterator[str]:
     """Yield the axes within the drawing."""
     x0, y0, x1, y1 = box
     if scene.axes and y0 <= 0.0 <= y1:
-        yield _drawn(Style.AXIS, f"M{_at((x0, 0.0))} L{_at((x1, 0.0))}")
+        yield _path_element(Style.AXIS, f"M{_at((x0, 0.0))} L{_at((x1, 0.0))}")
     if scene.axes and x0 <= 0.0 <= x1:
-        yield _drawn(Style.AXIS, f"M{_at((0.0, y0))} L{_at((0.0, y1))}")
+        yield _path_element(Style.AXIS, f"M{_at((0.0, y0))} L{_at((0.0, y1))}")
 
 
 def _path(path: Path, layer: Layer) -> str:
     """Return one path of a layer; pieces that are not finite leave a gap."""
     values = np.hstack((path.starts, path.ends, path.centers))
-    sound: list[bool] = np.logical_and.reduce(np.isfinite(values), axis=1).tolist()
-    words, joined = [], False
+    finite: list[bool] = np.logical_and.reduce(np.isfinite(values), axis=1).tolist()
+    commands, joined = [], False
     for row in range(len(path)):
-        if sound[row]:
+        if finite[row]:
             piece = path[row]
-            words.append(outline(piece) if joined else f"M{_at(piece.start)} {outline(piece)}")
-        joined = sound[row]
-    return _drawn(layer.style, " ".join(words), dashed=layer.dashed)
+            commands.append(outline(piece) if joined else f"M{_at(piece.start)} {outline(piece)}")
+        joined = finite[row]
+    return _path_element(layer.style, " ".join(commands), dashed=layer.dashed)
 
 
-def _drawn(style: Style, data: str, *, dashed: bool = False) -> str:
+def _path_element(style: Style, data: str, *, dashed: bool = False) -> str:
     return f'<path class="{style.name.lower()}{" dashed" if dashed else ""}" d="{data}"/>'
 
 
@@ -173,11 +173,11 @@ def _mark(mark: Mark, size: float) -> str:
         wings = (here + ahead * 0.5 + ahead * turn for turn in (-0.8 + 0.45j, -0.8 - 0.45j))
         left, right = (_at((wing.real, wing.imag)) for wing in wings)
         tip = here + ahead * 0.5
-        return _drawn(mark.style, f"M{left} L{_at((tip.real, tip.imag))} L{right}")
+        return _path_element(mark.style, f"M{left} L{_at((tip.real, tip.imag))} L{right}")
     if mark.symbol in (Symbol.GOUGE, Symbol.DELETED, Symbol.CENTER):
         x, y = mark.at
         first = f"M{_at((x - half, y - half))} L{_at((x + half, y + half))}"
-        return _drawn(mark.style, f"{first} M{_at((x - half, y + half))} L{_at((x + half, y - half))}")
+        return _path_element(mark.style, f"{first} M{_at((x - half, y + half))} L{_at((x + half, y - half))}")
     return _circle(Circle(mark.at, half, mark.style))
 
 
@@ -185,8 +185,8 @@ def _legend(roles: tuple[Style, ...], corner: Point, size: float, line: float) -
     x, y = corner
     for row, style in enumerate(roles):
         level = y - row * line
-        yield _drawn(style, f"M{_at((x, level + size / 3))} L{_at((x + 4 * size, level + size / 3))}")
-        yield _text((x + 5 * size, level), PEN_OF_STYLE[style].words, size)
+        yield _path_element(style, f"M{_at((x, level + size / 3))} L{_at((x + 4 * size, level + size / 3))}")
+        yield _text((x + 5 * size, level), PEN_OF_STYLE[style].legend, size)
 
 
 def _scale(scene: Scene, corner: Point, size: float) -> Iterator[str]:
@@ -197,7 +197,7 @@ def _scale(scene: Scene, corner: Point, size: float) -> Iterator[str]:
     length, decimals = round_length(from_mm(size * 0.25, scene.unit))
     left = x - to_mm(length, scene.unit)
     ends = " ".join(f"M{_at((end, y))} L{_at((end, y + letters))}" for end in (left, x))
-    yield _drawn(Style.SCALE, f"{ends} M{_at((left, y + letters / 2))} L{_at((x, y + letters / 2))}")
+    yield _path_element(Style.SCALE, f"{ends} M{_at((left, y + letters / 2))} L{_at((x, y + letters / 2))}")
     yield _text((left, y - 1.2 * letters), f"{length:.{decimals}f} {scene.unit}", letters)
 
 

@@ -201,8 +201,8 @@ def _transformed(
     """Yield the moved segments; if `explicit`, every end and center is typed."""
     for segment, shape in zip(segments, shapes, strict=True):
         match segment:
-            case LineSegment() | ArcSegment() if not explicit and (made := _moved_data(segment, motion, unit)):
-                yield made
+            case LineSegment() | ArcSegment() if not explicit and (moved := _moved_data(segment, motion, unit)):
+                yield moved
             case LineSegment():
                 x, y = motion.point(_known(shape.end))
                 yield LineSegment(_typed(x, unit), _typed(y, unit), segment.z_end, feed=segment.feed)

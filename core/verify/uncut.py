@@ -75,7 +75,7 @@ def uncut(
     wanted = thick > STOCK
     wanted[[0, -1]] = True
     columns = (*numbers[gaps.pieces], *gaps.ends, length, thick, gaps.farthest, area)
-    found = [
+    stretches = [
         Uncut(
             first, last, point_of(start), point_of(end), size, most, point_of(at), None if isnan(between) else between
         )
@@ -83,11 +83,14 @@ def uncut(
             *(column[wanted].tolist() for column in columns), strict=True
         )
     ]
-    if closed and at_start[0] and at_end[-1] and len(found) > 1:
+    if closed and at_start[0] and at_end[-1] and len(stretches) > 1:
         same_corner = abs(gaps.corner[0] - gaps.corner[-1]) <= CLOSED
-        both = float(gaps.area[0] + gaps.area[-1]) * side.sign if same_corner else nan
-        found = [*found[1:-1], _over_start(found[-1], found[0], both if both > 0.0 else None)]
-    return tuple(stretch for stretch in found if stretch.thickness > STOCK)
+        joint_area = float(gaps.area[0] + gaps.area[-1]) * side.sign if same_corner else nan
+        stretches = [
+            *stretches[1:-1],
+            _over_start(stretches[-1], stretches[0], joint_area if joint_area > 0.0 else None),
+        ]
+    return tuple(stretch for stretch in stretches if stretch.thickness > STOCK)
 
 
 def _over_start(before: Uncut, after: Uncut, area: float | None) -> Uncut:

@@ -282,8 +282,8 @@ def _near_tangent(chain: Untrimmed) -> tuple[Rows, Rows, Rows]:
     before = np.concatenate((previous[corners], inside))
     between = np.concatenate((corners, np.full(len(inside), -1)))
     after = np.concatenate((successor[corners], successor[inside]))
-    apart = before != after
-    return before[apart], between[apart], after[apart]
+    different = before != after
+    return before[different], between[different], after[different]
 
 
 _CERTAINLY_INSIDE_SHARE: Final = 1e-6

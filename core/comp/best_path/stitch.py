@@ -173,13 +173,13 @@ def _without_overlaps(raw: RawOffset, slices: Slices, following: Rows, walls: Wa
 
 def _pair_up(following: Rows, ends: Rows, begins: Rows, rank: Floats) -> None:
     """Let each of the slices `ends` be followed by one of `begins` (p,); pairs with the least rank go first."""
-    free, taken = set(ends.tolist()), set[int]()
+    free_ends, used_begins = set(ends.tolist()), set[int]()
     for row in np.argsort(rank, kind="stable").tolist():
         end, begin = int(ends[row]), int(begins[row])
-        if end in free and begin not in taken:
+        if end in free_ends and begin not in used_begins:
             following[end] = begin
-            free.remove(end)
-            taken.add(begin)
+            free_ends.remove(end)
+            used_begins.add(begin)
 
 
 def chains(stitched: StitchedSlices) -> list[tuple[Rows, bool]]:

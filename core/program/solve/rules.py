@@ -348,8 +348,8 @@ def _ask_circle_or_arc(gap: float, arcs: list[Arc], others: list[Arc], data: Seg
         answers = joined_with_or(["360", *(_angle_to_type(abs(arc.sweep)) for arc in names)])
         text = f"The end is {{value~0}} from the start: {joined_with_or(['full circle', *names.values()])}?"
         text += f" Type SWEEP ANGLE {answers}."
-    asked = Finding("CIRCLE_OR_ARC", Severity.ERROR, text, field="sweep", value=gap, lengths=(0.0,))
-    return Outcome(missing=() if "sweep" in data.known else ("sweep",), finding=asked)
+    question = Finding("CIRCLE_OR_ARC", Severity.ERROR, text, field="sweep", value=gap, lengths=(0.0,))
+    return Outcome(missing=() if "sweep" in data.known else ("sweep",), finding=question)
 
 
 def _angle_to_type(sweep: float) -> str:

@@ -263,8 +263,8 @@ def _eliminated(square: list[Numbers], right: Numbers) -> Numbers:
     values = [0.0] * count
     for index in range(count - 1, -1, -1):
         row = rows[index]
-        rest = row[count] - sum(row[at] * values[at] for at in range(index + 1, count))
-        values[index] = rest / row[index] if abs(row[index]) >= 1e-290 else 0.0
+        remainder = row[count] - sum(row[at] * values[at] for at in range(index + 1, count))
+        values[index] = remainder / row[index] if abs(row[index]) >= 1e-290 else 0.0
     return values
 
 
