@@ -28,6 +28,7 @@ from app.screens.contour_cells import (
     run_lacks,
     run_stops,
     run_trouble,
+    solved_segment,
     unanswered,
     value_at,
 )
@@ -638,8 +639,21 @@ class ContourScreen(BlockActions, FormScreen):
             self.focus_field(SEGMENT_FIELD)
             if not self.host.guided:
                 self.say(CLOSED_PROMPT)
+        elif (fault := self._fault_here()) is not None and fault.field in self.names():
+            # no later segment mends numbers that contradict each other
+            self.focus_field(fault.field)
+            self.say(sentence(fault, session.program.unit), Tone.ERROR)
         else:
             self._insert(session.place.segment + 1, LineSegment())
+
+    def _fault_here(self) -> Finding | None:
+        """Return what is wrong with the numbers of the LINE or ARC with the cursor, if other segments do not matter."""
+        run = run_here(self.current_session)
+        if not isinstance(self.current_session.segment, LineSegment | ArcSegment) or (run and run.first != run.last):
+            return None
+        findings = solved_segment(self.current_session).findings
+        errors = (each for each in findings if each.severity is Severity.ERROR)
+        return next((each for each in errors if each.code not in WAITING_CODES), None)
 
     def _jump(self, widget: SegmentField) -> None:
         text, session = widget.value.strip(), self.current_session

@@ -20,6 +20,8 @@ from core.program.file.read import loads
 from core.program.model import CutterComp, Number
 from core.units import Unit
 from tests.app.widget_pilot import Operator
+from tests.core.program.parts import arc
+from tests.core.program.parts import program as arcs
 
 pytestmark = pytest.mark.asyncio(loop_scope="module")
 
@@ -140,6 +142,18 @@ async def test_enter_goes_from_a_new_z_start_to_a_z_bottom_above_it(user: Operat
     assert user.prompt == "Z BOTTOM -0.2500 is above Z START -1.0000: it must be below."
     await user.press("'-1.5", "enter")
     assert user.session.block.z_bottom == Number(-1.5)
+
+
+async def test_enter_stays_on_a_last_segment_whose_numbers_contradict_each_other(user: Operator):
+    """Circle of 10 about X 40 Y 25, typed with the START of another one."""
+    circle = arc("CW", x_end=30, y_end=25, x_center=40, y_center=25)
+    await user.begin(arcs(circle, x=30.0, y=20.0), 1, "radius")
+    await user.press("enter")
+    assert len(user.session.block.segments) == 1
+    assert user.at == "x_center"
+    assert user.prompt.startswith("The arc's radius is 11.180 at its start and 10.000 at its end")
+    await user.press("pagedown")
+    assert len(user.session.block.segments) == 2, "Page Down goes on"
 
 
 async def test_the_only_block_cannot_be_deleted(user: Operator):
