@@ -20,7 +20,7 @@ from app.documents.tool_tables import merged, read_table, tool_line
 from core.comp.lookahead import MAX_LOOKAHEAD, MIN_LOOKAHEAD
 from core.program.model import Number, Program
 from core.program.tools import table_faults
-from core.units import Unit, segment_name, sentence
+from core.units import Unit, located_sentence, segment_name, sentence
 
 if TYPE_CHECKING:
     from core.advice.lookahead_table import Table
@@ -198,7 +198,7 @@ def post(options: argparse.Namespace) -> int:
     if options.override is not None and not result.overridden:
         say("--override was not needed: nothing prevented posting.")
     for note in result.notes:
-        say(f"{note.severity}: {sentence(note, derived.program.unit)}")
+        say(f"{note.severity}: {located_sentence(note, derived.program.unit)}")
     deliver(result.text, options.output)
     return _status(derived, None)
 

@@ -10,7 +10,8 @@ import numpy as np
 
 from core.advice.block_paths import BlockPaths
 from core.advice.path_findings import by_severity, move_names
-from core.controls.judging.repeated_passes import path_key
+from core.controls.judging.repeated_passes import PathKey, path_key
+from core.controls.moves import Moves
 from core.finding import Finding, Severity
 from core.geometry.path import Floats
 from core.output.passes import Job, heights
@@ -46,6 +47,49 @@ def with_block_cuts(
         if (own := cuts.get(block.number))
         else block
         for block in blocks
+    )
+
+
+def cuts_of_control(
+    blocks: Sequence[DerivedBlock], works: Sequence[Job], runs: Sequence[tuple[int, Moves, float]], control: str
+) -> tuple[Finding, ...]:
+    """Warn of cuts into other blocks' contours by the moves of a control, where `with_block_cuts` found none.
+
+    `works` are the blocks' jobs, in order.  `runs` are the control's compensated runs, each with its block's number and
+    the cutter's radius.
+    """
+    walls = list[Wall]()
+    for block, work in zip(blocks, works, strict=True):
+        walls += [] if block.paths is None else _walls(block, block.paths, work)
+    shapes = {wall.number: frozenset([wall.shape]) for wall in walls}
+    sweeps = dict[tuple[int, PathKey, float], Sweep]()
+    for number, moves, radius in runs:
+        path, heights_of_moves = moves.path(), moves.heights()
+        key = number, path_key(path), radius
+        if len(path) and (key not in sweeps or heights_of_moves.min() < sweeps[key].heights.min()):
+            sweeps[key] = Sweep(path, heights_of_moves, radius, shapes.get(number, frozenset()), number=number)
+    known = {
+        (block.number, wall.number)
+        for block in blocks
+        for wall in walls
+        if any(path is wall.path for path in block.cut_contours)
+    }
+    deepest = dict[tuple[int, int], ContourCut]()
+    for cut in cuts_into_other_contours(walls, list(sweeps.values())):
+        pair = cut.sweep.number, cut.wall.number
+        told = pair in known or (cut.through and pair[::-1] in known)
+        if not told and (pair not in deepest or cut.gouge.depth > deepest[pair].gouge.depth):
+            deepest[pair] = cut
+    return tuple(_lead_finding(cut, control) for cut in deepest.values())
+
+
+def _lead_finding(cut: ContourCut, control: str) -> Finding:
+    does = "runs through" if cut.through else "cuts {value} into"
+    text = f"The move of {control} into the cut or out of it {does} the contour of block {cut.wall.number} "
+    text += "at X {x} Y {y}. Start elsewhere, or post the center path."
+    gouge = cut.gouge
+    return Finding(
+        "OTHER_BLOCK", Severity.WARNING, text, at=gouge.surface_at, value=gouge.depth, block=cut.sweep.number
     )
 
 

@@ -3,10 +3,17 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
+from dataclasses import replace
 from math import pi
 
 from core.comp.compensated import Compensated
+from core.controls.control_names import display_name
+from core.controls.control_tools import ToolTable
+from core.controls.moves import Moves
+from core.controls.registry import UnknownControl, is_klartext, run
 from core.controls.write.contour_pass import CenterMove, CompensatedPass, PassToWrite, UncompensatedPass
+from core.controls.write.iso_program import tools_of
+from core.controls.write.iso_style import STYLE_OF_CONTROL
 from core.controls.write.written_program import Posted, Refusal
 from core.finding import Finding, Severity
 from core.geometry.construct import rotated
@@ -14,6 +21,7 @@ from core.geometry.piece import Arc, Turn
 from core.output.control_program import control_program, control_program_errors
 from core.output.nc import center_path_program
 from core.output.passes import Job, Pass, passes
+from core.pipeline.block_cuts import cuts_of_control
 from core.pipeline.derived import Derived, DerivedBlock
 from core.pipeline.jobs import jobs
 from core.program.model import PathChoice
@@ -34,7 +42,28 @@ def post_control_program(derived: Derived, *, name: str, control: str) -> Posted
     if errors:
         return Refusal(errors, unit)
     cuts = [cut for block, job in zip(derived.blocks, all_jobs, strict=True) for cut in _cuts(block, job)]
-    return control_program(all_jobs, cuts, unit, name=name, control=control, part=derived.program.setup.name)
+    posted = control_program(all_jobs, cuts, unit, name=name, control=control, part=derived.program.setup.name)
+    if isinstance(posted, Refusal) or len(derived.blocks) < 2:
+        return posted
+    return replace(posted, notes=(*posted.notes, *_cuts_by_leads(derived, all_jobs, cuts, posted, control)))
+
+
+def _cuts_by_leads(
+    derived: Derived, jobs_of_blocks: Sequence[Job], cuts: Sequence[PassToWrite], posted: Posted, control: str
+) -> tuple[Finding, ...]:
+    """Warn of each block whose path on the control cuts into the contour of another, where its own path does not.
+
+    The moves into the cut and out of it are the control's: the block's verdict does not know them.
+    """
+    tools = ToolTable() if is_klartext(control) else tools_of(cuts, STYLE_OF_CONTROL[control])
+    made = run(posted.text.encode("ascii"), control, tools, derived.program.unit)
+    assert not isinstance(made, UnknownControl), made.text
+    # read back, it has a stretch for each of them
+    compensated = [cut for cut in cuts if isinstance(cut, CompensatedPass)]
+    sweeps = list[tuple[int, Moves, float]]()
+    for cut, stretch in zip(compensated, made.stretches, strict=True):
+        sweeps.append((cut.block or 0, made.moves.part(stretch.first, stretch.last), cut.diameter / 2))
+    return cuts_of_control(derived.blocks, jobs_of_blocks, sweeps, display_name(control))
 
 
 def _best_path_refused(derived: Derived) -> tuple[Finding, ...]:

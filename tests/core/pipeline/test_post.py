@@ -415,3 +415,35 @@ def test_a_name_that_no_control_accepts_is_changed() -> None:
     assert isinstance(result, Posted)
     assert result.text.startswith("0 BEGIN PGM Teil-7----oe INCH\n")
     assert result.text.isascii()
+
+
+def island_in_a_pocket(start: float) -> Program:
+    """A pocket 4.2 by 2 that starts on its lower side, and a round island of 0.3 about X 2.6 Y 1."""
+    corners = ((start, 0), (4.2, 0), (4.2, 2), (0, 2), (0, 0), (start, 0))
+    island = changed(
+        block(((2.3, 1), (2.3, 1)), CutterComp.LEFT),
+        {"segments": (ArcSegment(Direction.CW, Number(2.3), Number(1.0), x_center=Number(2.6), y_center=Number(1.0)),)},
+    )
+    return program(block(corners, CutterComp.LEFT), island, parameters=BLENDS)
+
+
+@pytest.mark.parametrize("control", ["fanuc:a", "linuxcnc", "haas:a", "threeblock"])
+def test_leads_of_a_control_that_cut_an_island_are_warned_of(control: str) -> None:
+    """The block's own path is clean; only the control's straight move into the cut crosses the island."""
+    derived = derive(island_in_a_pocket(2.6))
+    assert not [finding for each in derived.blocks for finding in each.findings if finding.code == "OTHER_BLOCK"]
+    posted = post_control_program(derived, name="island", control=control)
+    assert isinstance(posted, Posted), posted
+    (note,) = [finding for finding in posted.notes if finding.code == "OTHER_BLOCK"]
+    assert note.block == 1
+    assert "the contour of block 2" in note.text
+    # the judge of NC programs finds the same cut in the text
+    tools = end_mills({1: 0.5})
+    made = run(posted.text.encode(), control, tools, Unit.IN)
+    assert isinstance(made, ControlRun)
+    depths = [cut.gouge.depth for result in judge_run(made) for cut in result.cuts_into_others]
+    assert note.value == pytest.approx(max(depths))
+    # beside the island there is room for the move
+    posted = post_control_program(derive(island_in_a_pocket(1.0)), name="island", control=control)
+    assert isinstance(posted, Posted), posted
+    assert not [finding for finding in posted.notes if finding.code == "OTHER_BLOCK"]
