@@ -16,7 +16,7 @@ from core.controls.control_run import ControlRun, Stretch
 from core.controls.control_tools import ToolTable
 from core.controls.registry import run
 from core.controls.write.contour_pass import PassWithLeads, WrittenLine
-from core.controls.write.iso_program import Frame, tools_of, write_iso
+from core.controls.write.iso_program import tools_of, write_iso
 from core.controls.write.iso_style import FREE_ENTRY, STYLE_OF_CONTROL
 from core.controls.write.klartext_program import KLARTEXT_DECIMALS, write_klartext_contours
 from core.controls.write.rewritten_stretch import NotTranslated, rewritten_stretch
@@ -61,7 +61,7 @@ def translate_contours(source: ControlRun, control: str) -> TranslatedProgram | 
         lines, decimals = write_klartext_contours(runs, unit), KLARTEXT_DECIMALS[unit]
         tools: ToolTable = {}
     else:
-        lines, decimals = write_iso(runs, style, Frame(unit)), style.digits(unit)
+        lines, decimals = write_iso(runs, style, unit), style.digits(unit)
         tools = tools_of([run_led.contour_pass for run_led in runs], style)
     return TranslatedProgram(lines, tuple(sources), tools, to_mm(10.0**-decimals, unit))
 

@@ -12,7 +12,7 @@ from typing import Final
 from core.controls.control_names import display_name
 from core.controls.registry import is_klartext
 from core.controls.write.contour_pass import CompensatedPass, PassToWrite
-from core.controls.write.iso_program import Frame, offsets
+from core.controls.write.iso_program import offsets
 from core.controls.write.iso_style import STYLE_OF_CONTROL, Radius
 from core.controls.write.written_program import Posted, Refusal, write_program
 from core.finding import Finding, Severity
@@ -63,8 +63,7 @@ def control_program(
     short_name = "".join(
         sign if sign.isascii() and (sign.isalnum() or sign in "-_") else "-" for sign in in_ascii(name)
     )[:24]
-    frame = Frame(unit, jobs[0].work_offset)
-    written = write_program(cuts, control, frame, short_name or "PART", remarks)
+    written = write_program(cuts, control, unit, short_name or "PART", remarks, jobs[0].work_offset)
     if isinstance(written, Refusal):
         return written
     style, notes = STYLE_OF_CONTROL.get(control), [*_operator_notes(jobs, cuts, unit, control)]

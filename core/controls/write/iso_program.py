@@ -7,7 +7,6 @@ straight line onto the blend, and leaves the same way; without a blend the line 
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping, Sequence
-from dataclasses import dataclass
 from itertools import count
 from typing import Final
 
@@ -30,14 +29,6 @@ FIRST_STOCK_OFFSET: Final = 51
 
 CORNER_TOLERANCE: Final = {Unit.IN: "0.0002", Unit.MM: "0.005"}
 """How far the machine may leave the path at a corner, in program units."""
-
-
-@dataclass(frozen=True, slots=True)
-class Frame:
-    """Settings for the whole program: unit and work offset (54 to 59)."""
-
-    unit: Unit
-    work_offset: int = 54
 
 
 def offsets(cuts: Sequence[ContourPass], style: IsoStyle) -> dict[tuple[int, float], int]:
@@ -66,15 +57,19 @@ def tools_of(cuts: Sequence[ContourPass], style: IsoStyle) -> ToolTable:
 
 
 def write_iso(
-    cuts: Sequence[PassWithLeads | UncompensatedPass], style: IsoStyle, frame: Frame, remarks: Sequence[str] = ()
+    cuts: Sequence[PassWithLeads | UncompensatedPass],
+    style: IsoStyle,
+    unit: Unit,
+    remarks: Sequence[str] = (),
+    work_offset: int = 54,
 ) -> tuple[WrittenLine, ...]:
     """Return the lines of the program; `remarks` are ready comment lines, which follow the style's head."""
     passes = [run if isinstance(run, UncompensatedPass) else run.contour_pass for run in cuts]
-    writer = _Writer(style, frame, offsets(passes, style))
-    unit = style.inch if frame.unit is Unit.IN else style.metric
-    offset, rounding = f"G{frame.work_offset}", CORNER_TOLERANCE[frame.unit]
+    writer = _Writer(style, unit, offsets(passes, style))
+    code = style.inch if unit is Unit.IN else style.metric
+    offset, rounding = f"G{work_offset}", CORNER_TOLERANCE[unit]
     texts = [*style.head, *(remarks if style.comments else ())]
-    texts += [safe.format(unit=unit, offset=offset, rounding=rounding) for safe in style.safe]
+    texts += [safe.format(unit=code, offset=offset, rounding=rounding) for safe in style.safe]
     if style.corner_code:
         texts.append(style.corner_code)
     lines = [WrittenLine(text) for text in texts]
@@ -93,9 +88,9 @@ class _Writer:
     `feed`, `height` and `at` are the modal state, as text; `tool_length` has the words for the next rapid in Z.
     """
 
-    def __init__(self, style: IsoStyle, frame: Frame, offsets: Mapping[tuple[int, float], int]) -> None:
+    def __init__(self, style: IsoStyle, unit: Unit, offsets: Mapping[tuple[int, float], int]) -> None:
         self.style = style
-        self.unit = frame.unit
+        self.unit = unit
         self.offsets = offsets
         self.feed = ""
         self.height = ""

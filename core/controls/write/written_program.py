@@ -19,7 +19,7 @@ from core.controls.write.contour_pass import (
     path_finish,
     programmed_elements,
 )
-from core.controls.write.iso_program import Frame, tools_of
+from core.controls.write.iso_program import tools_of
 from core.controls.write.iso_style import STYLE_OF_CONTROL, IsoStyle
 from core.controls.write.lead_moves import ProtectedContour, clear_leads, merged, with_blends
 from core.controls.write.read_back import ComparedPaths, Intended, read_back
@@ -56,27 +56,30 @@ class Refusal:
 
 
 def write_program(
-    cuts: Sequence[PassToWrite], control: str, frame: Frame, name: str, remarks: Remarks
+    cuts: Sequence[PassToWrite], control: str, unit: Unit, name: str, remarks: Remarks, work_offset: int = 54
 ) -> Posted | Refusal:
-    """Return the program for a control, by full name; `remarks` makes its first lines from the notes on it."""
+    """Return the program for a control, by full name; `remarks` makes its first lines from the notes on it.
+
+    The work offset is 54 to 59; Klartext has none.
+    """
     if is_klartext(control):
-        return _klartext(cuts, control, frame, name, remarks)
-    return _iso(cuts, control, frame, remarks)
+        return _klartext(cuts, control, unit, name, remarks)
+    return _iso(cuts, control, unit, work_offset, remarks)
 
 
-def _klartext(cuts: Sequence[PassToWrite], control: str, frame: Frame, name: str, remarks: Remarks) -> Posted | Refusal:
-    digit = to_mm(10.0 ** -klartext_program.KLARTEXT_DECIMALS[frame.unit], frame.unit)
+def _klartext(cuts: Sequence[PassToWrite], control: str, unit: Unit, name: str, remarks: Remarks) -> Posted | Refusal:
+    digit = to_mm(10.0 ** -klartext_program.KLARTEXT_DECIMALS[unit], unit)
 
     def write(notes: Sequence[Finding]) -> Intended | Finding:
-        lines = klartext_program.write_klartext(cuts, name, frame.unit, remarks(notes))
+        lines = klartext_program.write_klartext(cuts, name, unit, remarks(notes))
         if isinstance(lines, Finding):
             return lines
-        return Intended(control, lines, tuple(cuts), {}, frame.unit, digit, leads=False)
+        return Intended(control, lines, tuple(cuts), {}, unit, digit, leads=False)
 
-    return _confirmed(write, frame.unit)
+    return _confirmed(write, unit)
 
 
-def _iso(cuts: Sequence[PassToWrite], control: str, frame: Frame, remarks: Remarks) -> Posted | Refusal:
+def _iso(cuts: Sequence[PassToWrite], control: str, unit: Unit, work_offset: int, remarks: Remarks) -> Posted | Refusal:
     style = STYLE_OF_CONTROL[control]
     led: dict[Compensated, PassWithLeads | Finding] = {}
     runs, refusals = list[PassWithLeads | UncompensatedPass](), dict[Finding, None]()
@@ -93,14 +96,14 @@ def _iso(cuts: Sequence[PassToWrite], control: str, frame: Frame, remarks: Remar
         else:
             runs.append(replace(run, contour_pass=cut))
     if refusals:
-        return Refusal(tuple(refusals), frame.unit)
-    digit = to_mm(10.0 ** -style.digits(frame.unit), frame.unit)
+        return Refusal(tuple(refusals), unit)
+    digit = to_mm(10.0 ** -style.digits(unit), unit)
 
     def write(notes: Sequence[Finding]) -> Intended:
-        lines = iso_program.write_iso(runs, style, frame, remarks(notes))
-        return Intended(control, lines, tuple(cuts), tools_of(cuts, style), frame.unit, digit, leads=True)
+        lines = iso_program.write_iso(runs, style, unit, remarks(notes), work_offset)
+        return Intended(control, lines, tuple(cuts), tools_of(cuts, style), unit, digit, leads=True)
 
-    return _confirmed(write, frame.unit)
+    return _confirmed(write, unit)
 
 
 def _with_clear_leads(cut: CompensatedPass, style: IsoStyle) -> PassWithLeads | Finding:

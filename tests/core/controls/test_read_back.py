@@ -14,7 +14,7 @@ from hypothesis import strategies as st
 from core.comp.compensate import compensate
 from core.controls.registry import names
 from core.controls.write.contour_pass import CenterMove, CompensatedPass, WrittenLine
-from core.controls.write.iso_program import Frame, tools_of
+from core.controls.write.iso_program import tools_of
 from core.controls.write.iso_style import STYLE_OF_CONTROL
 from core.controls.write.read_back import (
     Intended,
@@ -96,7 +96,7 @@ def test_arcs_and_a_full_circle_read_back(control: str, side: Side) -> None:
         compensate(Path.from_pieces(pieces), side, 5.0, 2, closed=False, blend=2.0),
         compensate(circle, side, 5.0, 3, closed=True, blend=2.0, overlap=4.0),
     ):
-        written = write_program([cut(contour)], control, Frame(Unit.MM), "PART", lambda _: ())
+        written = write_program([cut(contour)], control, Unit.MM, "PART", lambda _: ())
         assert isinstance(written, Posted), written
         assert not written.notes
 

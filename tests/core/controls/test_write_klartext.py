@@ -15,7 +15,6 @@ from core.comp.compensate import compensate
 from core.comp.compensated import Compensated
 from core.controls.klartext.control import run_klartext
 from core.controls.write.contour_pass import CompensatedPass
-from core.controls.write.iso_program import Frame
 from core.controls.write.klartext_program import write_klartext
 from core.controls.write.read_back import MIN_TOLERANCE
 from core.controls.write.written_program import Posted, Refusal, write_program
@@ -43,7 +42,7 @@ def write(compensated: Compensated, unit: Unit = Unit.MM) -> str | Refusal:
 
 def written(cuts: list[CompensatedPass], unit: Unit = Unit.MM) -> str | Refusal:
     """The program of some runs."""
-    found = write_program(cuts, "klartext", Frame(unit), "PART", lambda _: ())
+    found = write_program(cuts, "klartext", unit, "PART", lambda _: ())
     return found.text if isinstance(found, Posted) else found
 
 

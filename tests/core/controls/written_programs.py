@@ -9,7 +9,7 @@ from core.comp.compensated import Compensated
 from core.controls.control_run import ControlRun
 from core.controls.registry import names, run
 from core.controls.write.contour_pass import CompensatedPass, PassToWrite
-from core.controls.write.iso_program import Frame, tools_of
+from core.controls.write.iso_program import tools_of
 from core.controls.write.iso_style import STYLE_OF_CONTROL
 from core.controls.write.written_program import Posted, Refusal, write_program
 from core.finding import Finding
@@ -49,7 +49,7 @@ def cut(one: Compensated, *, tool: int = 1, stock: float = 0.0, depth: float = -
 
 def write(control: str, *cuts: PassToWrite, remarks: tuple[str, ...] = ()) -> Posted | Refusal:
     """The program in inches."""
-    return write_program(cuts, control, Frame(Unit.IN), "PART", lambda _: remarks)
+    return write_program(cuts, control, Unit.IN, "PART", lambda _: remarks)
 
 
 def text_of(control: str, *cuts: PassToWrite) -> str:
