@@ -21,12 +21,14 @@ from core.controls.control_run import MAX_ALIKE, ControlRun, finding_of_omitted
 from core.controls.control_tools import CutterTool, ToolId, ToolTable, tool_id
 from core.controls.iso.flow import ProgramLibrary, no_library
 from core.controls.iso.modal_state import RADIUS_ZERO
+from core.controls.iso.reader import without_comments
 from core.controls.judging import shop_rules
 from core.controls.judging.judged_contour import JudgedContour
 from core.controls.judging.judged_findings import judged_findings
 from core.controls.judging.judged_runs import deepest_gouge, first_unjudged, judge_run
 from core.controls.moves import Move, Moves
-from core.controls.registry import reads, run
+from core.controls.program_text import lines_of
+from core.controls.registry import is_klartext, reads, run
 from core.finding import Finding, Severity
 from core.program.tools import unusual_size
 from core.progress import Progress, silent
@@ -41,6 +43,9 @@ EMPTY_CODE: Final = "EMPTY"
 """The rule of a program with nothing to run."""
 SHALLOW_GOUGE_SHARE: Final = 0.01
 """A gouge is shallow below this fraction of the tool's radius."""
+
+_COMPENSATES: Final = re.compile(r"G0*4[12](?!\d)")
+_COMPENSATES_KLARTEXT: Final = re.compile(r"\bR[LR]\b")
 
 
 class State(StrEnum):
@@ -166,7 +171,7 @@ class Answer:
 def answer(text: bytes, request: CheckRequest) -> Answer:
     """Return one control's answer."""
     done = run(text, request.control, request.tools, request.unit, request.library)
-    before = (*unusual_tools(request.tools, done.unit), *_foreign(done.control, text))
+    before = (*unusual_tools(request.tools, done.unit), *_foreign(done.control, text), *_idle_compensation(done, text))
     return _complete(_answer(done, judge_run(done), before, shop=request.shop), done, text, request)
 
 
@@ -233,7 +238,7 @@ def tool_option(tool: ToolId) -> str:
 
 def answered(done: ControlRun, results: tuple[JudgedContour, ...], text: bytes, tools: ToolTable) -> Answer:
     """Return the answer of a control that has run a text, with the key that gives a tool its size if it needs one."""
-    before = (*unusual_tools(tools, done.unit), *_foreign(done.control, text))
+    before = (*unusual_tools(tools, done.unit), *_foreign(done.control, text), *_idle_compensation(done, text))
     return _with_remedy(_answer(done, results, before, shop=False), lambda tool: f"T gives tool {tool} its diameter.")
 
 
@@ -282,6 +287,20 @@ def _foreign(control: str, text: bytes) -> tuple[Finding, ...]:
         return ()
     message = "The program is not written in this control's language. Comparing all controls takes its contour."
     return (_language(Severity.WARNING, message),)
+
+
+def _idle_compensation(done: ControlRun, text: bytes) -> tuple[Finding, ...]:
+    """Warn if a program has compensation but no compensated move was run: nothing has been judged then."""
+    if done.stretches or done.stopped_at is not None or any(each.code in RADIUS_ZERO for each in done.findings):
+        return ()
+    compensates = _COMPENSATES_KLARTEXT if is_klartext(done.control) else _COMPENSATES
+    lines = enumerate(lines_of(text), 1)
+    line = next((number for number, line in lines if compensates.search(without_comments(line.upper()))), None)
+    if line is None:
+        return ()
+    message = "Compensation is programmed here, but no compensated move is run: nothing is judged. "
+    message += "Check the loops, jumps and calls that lead here."
+    return (Finding("NOT_RUN", Severity.WARNING, message, line=line),)
 
 
 def _answer(done: ControlRun, results: tuple[JudgedContour, ...], before: tuple[Finding, ...], *, shop: bool) -> Answer:

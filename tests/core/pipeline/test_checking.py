@@ -290,3 +290,23 @@ def test_two_programs_are_compared_contour_by_contour(second: bytes, sentences: 
 def test_programs_without_contours_are_not_the_same() -> None:
     text = b"G21 F9.\nG1 X1.\nM30\n"
     assert same_contours(text, KLARTEXT, request_for("all")) == (False, ("Neither program has a compensated contour.",))
+
+
+@pytest.mark.parametrize(("condition", "runs"), [("#1 LT 10.", True), ("#1 GT 10.", False)])
+def test_compensation_in_a_loop_that_is_never_run_is_a_warning(condition: str, runs: bool) -> None:
+    """The relation is the wrong way around: the control runs no pass, and there is nothing to judge."""
+    loop = f"WHILE [{condition}] DO1\n#1=#1+5.\nG41 D1 G1 X10. Y0\nX30.\nG40 Y20.\nEND1\n"
+    program = f"G21 G17 G90 F100.\n(G41 IS BELOW)\n#1=0\nG0 Y-20.\n{loop}G0 Z50.\nM30\n"
+    row = answer(program.encode(), request_for("fanuc:a", CutterTool(1, 10.0)))
+    idle = [finding for finding in row.findings if finding.code == "NOT_RUN"]
+    assert row.stopped_at is None
+    assert [finding.line for finding in idle] == ([] if runs else [7])
+
+
+def test_klartext_compensation_that_is_jumped_over_is_a_warning() -> None:
+    text = "BEGIN PGM A MM\nTOOL CALL 1 Z S1000\nL X+0 Y-30 R0 FMAX\n{}L X+0 Y+0 RL F100\nL Y+40\nL X+40 R0\nLBL 1\n"
+    text += "L Z+50 R0 FMAX\nEND PGM A MM\n"
+    for jump, count in (("FN 9: IF +1 EQU +1 GOTO LBL 1\n", 1), ("", 0)):
+        row = answer(text.format(jump).encode(), request_for("heidenhain", CutterTool(1, 10.0)))
+        assert row.stopped_at is None, row.findings
+        assert [finding.code for finding in row.findings].count("NOT_RUN") == count
