@@ -437,7 +437,7 @@ class MacroMachine(Machine):
         if {0, 1} & set(axes) and 2 not in self.unknown and height < -ON_PATH:
             named = " and ".join("XYZ"[axis] for axis in axes if axis < 2)
             text = (
-                f"The tool is at Z {{0}} when {named} leaves for the machine's point. Raise it in a block before this."
+                f"The tool is still at Z {{0}} when it goes to the machine's {named}. Raise it in a block before this."
             )
             self.log.warn("HOME", text, block.at("G"), lengths=(height,))
         self.unknown.update(axes)

@@ -1248,7 +1248,7 @@ def test_x_and_y_that_leave_for_a_machine_point_at_depth_are_a_warning(control: 
     run = ran(f"{HEAD}G54 G0 X50.\nZ5.\nG1 Z-5. F100.\nX60.\n{home}\nM30\n", control)
     warnings = [finding for finding in findings_of(run, "HOME") if finding.severity is Severity.WARNING]
     assert [(finding.line, finding.lengths) for finding in warnings] == ([(6, (-5.0,))] if axes else [])
-    assert all(f"when {axes} leaves" in finding.text for finding in warnings)
+    assert all(f"goes to the machine's {axes}." in finding.text for finding in warnings)
 
 
 def test_the_height_at_a_machine_point_is_that_of_the_work_offset() -> None:
