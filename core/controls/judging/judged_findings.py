@@ -11,7 +11,7 @@ import numpy as np
 from core.controls.judging.contours_and_leads import MAX_LEAD_MOVES
 from core.controls.judging.judged_contour import JudgedContour, ToleratedArc, first_line, line_of
 from core.controls.judging.mirrored_arcs import mirrored_arcs
-from core.controls.judging.rapids_at_depth import rapid_walls
+from core.controls.judging.rapids_at_depth import cuts_nothing, rapid_walls
 from core.controls.moves import Plane
 from core.finding import Finding, Severity
 from core.geometry.path import Path
@@ -43,6 +43,7 @@ def judged_findings(results: tuple[JudgedContour, ...]) -> tuple[Finding, ...]:
             for finding in (
                 *_side_changes(result),
                 *_passed_over(result),
+                *_cuts_nothing(result),
                 *_uneven_arc(uneven.get(result)),
                 *_mirrored_arcs(result),
                 *_cuts(result),
@@ -136,6 +137,13 @@ def _rapid_walls(results: Sequence[JudgedContour]) -> tuple[Finding, ...]:
         Finding("RAPID", Severity.WARNING, text, lengths=(move.point[2],), line=line_of(line))
         for line, move in sorted(moves.items())
     )
+
+
+def _cuts_nothing(result: JudgedContour) -> Iterator[Finding]:
+    """Warn of a contour that is run in rapids only, in the air: a G1 or a plunge is missing."""
+    if cuts_nothing(result.stretch):
+        text = "Nothing is cut: all moves of this contour are rapids above the part. Write the plunge and G1 before it."
+        yield Finding("NO-CUT", Severity.WARNING, text, line=first_line(result.surface))
 
 
 def _passed_over(result: JudgedContour) -> Iterator[Finding]:

@@ -56,6 +56,12 @@ def highest_cut(stretch: Stretch) -> float:
     return float(np.where(high == low, high, np.minimum(high, np.maximum(low, 0.0))).max(initial=-np.inf))
 
 
+def cuts_nothing(stretch: Stretch) -> bool:
+    """True if a stretch in XY has a contour, and all of it is rapids that are not below zero."""
+    surface = surface_rows(stretch)
+    return stretch.plane is Plane.XY and bool(surface.any()) and highest_cut(stretch) == -inf
+
+
 def rapid_walls(stretch: Stretch) -> tuple[Move, ...]:
     """Return a stretch's rapids in XY that count as its contour and are no higher than its highest cut."""
     if stretch.plane is not Plane.XY:

@@ -140,6 +140,17 @@ def test_a_contour_cut_only_by_rapids_below_zero_is_reported(height: str, lines:
     assert [finding.line for finding in rapids(program)] == lines
 
 
+def test_a_contour_in_rapids_above_the_part_is_reported() -> None:
+    """The plunge is missing, and G1 with it."""
+    boss = "G41 D1 X0. Y-10. F400.\nY50.\nX80.\nY0.\nX-10.\nG40 X-20. Y-20.\nG0 Z50.\nM30\n"
+    head = "G21 G17 G90 G40\nT1 M6\nG0 X-20. Y-20.\nZ5.\n"
+    (warning,) = rapids(f"{head}{boss}", code="NO-CUT")
+    assert (warning.line, warning.severity) == (6, Severity.WARNING)
+    assert warning.text.startswith("Nothing is cut: all moves of this contour are rapids above the part.")
+    for plunge in ("G1 Z-5. F100.\n", "G1 F100.\n"):
+        assert not rapids(f"{head}{plunge}{boss}", code="NO-CUT")
+
+
 def test_m91_in_klartext_ends_the_known_depth() -> None:
     program = (
         "BEGIN PGM A MM\nTOOL CALL 1 Z S1000\nL X+20 Y+20 Z+5 R0 FMAX\nL Z-5 F300\nL X+30 RL\nCC X+20 Y+20\n"
