@@ -8,9 +8,8 @@ from math import pi
 
 from core.comp.compensated import Compensated
 from core.controls.control_names import display_name
-from core.controls.control_tools import ToolTable
 from core.controls.moves import Moves
-from core.controls.registry import UnknownControl, is_klartext, run
+from core.controls.registry import is_klartext, run
 from core.controls.write.contour_pass import CenterMove, CompensatedPass, PassToWrite, UncompensatedPass
 from core.controls.write.iso_program import tools_of
 from core.controls.write.iso_style import STYLE_OF_CONTROL
@@ -55,9 +54,8 @@ def _cuts_by_leads(
 
     The moves into the cut and out of it are the control's: the block's verdict does not know them.
     """
-    tools = ToolTable() if is_klartext(control) else tools_of(cuts, STYLE_OF_CONTROL[control])
+    tools = {} if is_klartext(control) else tools_of(cuts, STYLE_OF_CONTROL[control])
     made = run(posted.text.encode("ascii"), control, tools, derived.program.unit)
-    assert not isinstance(made, UnknownControl), made.text
     # read back, it has a stretch for each of them
     compensated = [cut for cut in cuts if isinstance(cut, CompensatedPass)]
     sweeps = list[tuple[int, Moves, float]]()
