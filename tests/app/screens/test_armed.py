@@ -75,7 +75,7 @@ async def test_esc_brings_back_the_last_number_that_can_be_used(user: Operator):
     await user.press("'0", "enter", "'x", "enter")
     assert user.tag("tool") == "ERR"
     await user.press("escape")
-    assert user.prompt == "The old number is back. Esc again, then 1 to 8, is a softkey."
+    assert user.prompt == "The old number is back. Esc again, then 1 to 8, presses a softkey."
     assert (user.value("tool"), user.tag("tool")) == ("1", "")
     assert user.session.program == before
     # text that was unusable before stays
