@@ -663,7 +663,7 @@ class ImportScreen(BaseScreen):
             return
         count = max(len(contour.pieces) for contour in contours)
         if count > MAX_SEGMENTS and not all(contour.number in self.unfitted for contour in contours):
-            lines = [f"{count:,} segments: that may be too many for the look-ahead of a control."]
+            lines = [f"{count:,} segments: the form shows them, the look-ahead of a control may not."]
             answers = [Answer("FIT ARCS", "then look at the list"), Answer("TAKE", "as they are")]
             word = await self.app.push_screen_wait(Question("MANY SEGMENTS", lines, answers, "FIT ARCS"))
             if word == "FIT ARCS":

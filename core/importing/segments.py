@@ -114,7 +114,7 @@ def _notes(contour: Contour, decimals: int, usual: int, *, asked: bool) -> tuple
         )
     if len(contour.pieces) > MAX_SEGMENTS:
         notes.append(
-            f"{len(contour.pieces):,} segments: that may be too many for the look-ahead of a control. FIT ARCS?"
+            f"{len(contour.pieces):,} segments: the form shows them, the look-ahead of a control may not. FIT ARCS?"
         )
     if not contour.closed and not asked:
         notes.append(f"Chain {contour.number} is open: choose CUTTER COMP. on START.")

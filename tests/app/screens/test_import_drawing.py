@@ -491,7 +491,7 @@ async def test_fit_arcs_is_advised_before_more_than_five_hundred_segments_are_ta
     async with importer(circle_of_lines(600), tmp_path) as user:
         await user.press("enter")
         await user.until(lambda: isinstance(user.app.screen, Question))
-        assert "segments: that may be too many for the look-ahead of a control." in user.question.lines[0]
+        assert "segments: the form shows them, the look-ahead of a control may not." in user.question.lines[0]
         await user.press("enter")
         await user.until(lambda: user.rows[0][3] == "1")
         await user.press("enter")
