@@ -9,7 +9,8 @@ from typing import TYPE_CHECKING, ClassVar, Final
 
 from textual import on, work
 from textual.app import ComposeResult
-from textual.containers import Horizontal
+from textual.binding import Binding, BindingType
+from textual.containers import Horizontal, VerticalScroll
 from textual.content import Content
 from textual.widgets import Input, OptionList, Static
 
@@ -52,6 +53,10 @@ class PostScreen(EntryScreen):
         Softkey("BACK to program", "app.back", "BACK"),
     )
     MORE_KEYS: ClassVar[tuple[tuple[str, str], ...]] = BaseScreen.MORE_KEYS
+    BINDINGS: ClassVar[list[BindingType]] = [
+        Binding("pagedown", "scroll(1)", "More findings", show=False),
+        Binding("pageup", "scroll(-1)", "Findings before", show=False),
+    ]
 
     def __init__(self, text: str = "") -> None:
         super().__init__(text)
@@ -71,7 +76,8 @@ class PostScreen(EntryScreen):
         """Yield the controls, the findings and the preview."""
         yield NamedRows(*control_rows(choices()), id="post-controls")
         with Horizontal(id="post-answer"):
-            yield PlainText(id="post-findings")
+            with VerticalScroll(id="post-reasons", can_focus=False):
+                yield PlainText(id="post-findings")
             yield PlainText(id="post-preview")
 
     def on_mount(self) -> None:
@@ -112,6 +118,11 @@ class PostScreen(EntryScreen):
         """Move the cursor to the list of controls."""
         self.query_one("#post-controls").focus()
 
+    def action_scroll(self, by: int) -> None:
+        """Scroll the findings down or up by a page."""
+        findings = self.query_one("#post-reasons", VerticalScroll)
+        (findings.scroll_page_down if by > 0 else findings.scroll_page_up)(animate=False)
+
     def _make(self, program: Program) -> None:
         self.made, self.stopped, self._enter_waits, self._program = None, False, False, program
         self._show()
@@ -145,9 +156,10 @@ class PostScreen(EntryScreen):
         self.query_one("#post-preview", Static).update(Content(preview))
         self.query_one("#post-findings", Static).update(Content("\n").join(lines))
         self.refresh_frame()
+        self.call_after_refresh(self.refresh_frame)
 
     def _findings(self) -> list[Content]:
-        """Return what prevents posting, or that all is ready; then what is uncut or deleted, and the notes."""
+        """Return what prevents posting, or that all is ready; then the notes, and what is uncut or deleted."""
         marks, session = MARKS_OF_CHARACTERS[self.host.characters], self.current_session
         if self.made is None:
             text = "Stopped. Enter makes the NC text." if self.stopped else "The NC text is being made."
@@ -159,19 +171,20 @@ class PostScreen(EntryScreen):
             Content.styled(f"{marks.warning} {line}", "$c-uncut") for line in objections(session.derived)
         ]
         unsaved = [Content.styled("The program is not saved: Ctrl+S saves it.", "$c-label")] if session.unsaved else []
-        return [*against, *ready, *uncut_or_deleted, *notes, *unsaved]
+        return [*against, *ready, *notes, *uncut_or_deleted, *unsaved]
 
     def prompt_text(self) -> Sentence:
         """Return what Enter does."""
         if self.focused is not None and self.focused.id == "post-controls":
             chosen = next(each for each in choices() if each.control == self.choice)
             return Sentence(f"{chosen.name}, {chosen.about}. Up, down or letters choose, Enter goes back to the name.")
+        more = " Page Down: more findings." if self.query_one("#post-reasons").max_scroll_y else ""
         if self.made is None or not self.made.against:
-            return Sentence("NC file name, Enter posts. F2 or Tab: which control compensates.")
+            return Sentence(f"NC file name, Enter posts. F2 or Tab: which control compensates.{more}")
         trouble = f"{counted(len(self.made.against), 'finding')} must be corrected."
         if self.made.overridable:
             trouble = "A gouge must be corrected or overridden."
-        return Sentence(f"NC file name. {trouble}", Tone.WARNING)
+        return Sentence(f"NC file name. {trouble}{more}", Tone.WARNING)
 
     @work(exclusive=True, group="posting")
     async def entered(self, text: str) -> None:

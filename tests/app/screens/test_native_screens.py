@@ -209,6 +209,27 @@ async def test_letters_that_begin_no_control_are_said_to_on_post(user: Operator)
     assert user.prompt.startswith("haas:a, ")
 
 
+async def test_more_findings_than_have_room_are_reached_by_page_down(user: Operator):
+    """Eight blocks without a speed or a depth: 16 reasons, of which the area on 24 rows shows less than half."""
+    blank = program(line(x_end=50.0, y_end=0.0), start={"speed": None, "z_bottom": None})
+    await user.begin(replace(blank, blocks=blank.blocks * 8))
+    await run(user, "app.post")
+    await user.finish()
+    screen = user.app.screen
+    assert isinstance(screen, PostScreen)
+    assert user.prompt.endswith("must be corrected. Page Down: more findings.")
+    reasons = screen.query_one("#post-reasons")
+    assert reasons.vertical_scrollbar.display
+    await user.press("pagedown", "pagedown", "pagedown")
+    assert reasons.scroll_y == reasons.max_scroll_y > 0
+    await user.press("pageup", "pageup", "pageup")
+    assert reasons.scroll_y == 0
+    await user.begin(replace(blank, blocks=blank.blocks))
+    await run(user, "app.post")
+    await user.finish()
+    assert user.prompt.endswith("must be corrected.")
+
+
 async def test_a_reason_too_long_for_the_prompt_is_pointed_to(user: Operator):
     """The prompt has two lines; the findings above it hold the whole sentence."""
     climbing = program(line(x_end=50.0, y_end=0.0, z_end=-0.125, feed=90.0))
