@@ -310,6 +310,10 @@ def _center_and_coordinate(axis: int, data: SegmentData) -> Outcome:
     if isinstance(ends, OutOfReach):
         text = f"The arc's radius is {{0}}: it does not reach {'XY'[axis]} END {{1}}."
         return contradiction(text, _END[axis], radius, value)
+    if len(ends) == 1 and "sweep" in data.known:
+        # where the circle only touches this coordinate, SWEEP ANGLE says more about the other one
+        turned = construct.rotated(data.start, center, data.turn * data.known["sweep"])
+        ends = (turned,) if abs(turned[axis] - value) <= JOINED else ends
     return _about_center(data, *ends)
 
 

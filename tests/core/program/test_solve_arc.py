@@ -6,7 +6,7 @@ import re
 from math import cos, dist, hypot, radians, sin, tau
 
 import pytest
-from hypothesis import assume, given, settings
+from hypothesis import assume, example, given, settings
 from hypothesis import strategies as st
 
 from core.finding import Severity
@@ -269,6 +269,7 @@ GIVEN = (
     st.floats(5, 355).filter(lambda sweep: abs(sweep - 180) > 5),
     st.sampled_from(("CW", "CCW")),
 )
+@example(start=(0.0, 0.0), center=(21.0, 0.002), sweep=90.0, direction="CW")
 def test_calculated_fields_give_the_arc_again(start, center, sweep, direction):
     assume(dist(start, center) > 1.0)
     whole = solved(arc(direction, x_center=center[0], y_center=center[1], sweep=sweep), *start)
