@@ -28,6 +28,7 @@ def field_findings(block: Block, solved: SolvedBlock, program: Program) -> Itera
     yield from _tool_sizes(block, solved, program)
     yield from _without_partner(block, solved)
     yield from _blank_feeds(block, solved, program)
+    yield from _fast_feeds(solved, program)
     yield from _allowances_without_finish_tool(block, program)
     yield from _finish_tool_without_allowance(block, program)
     yield from _no_clearance(solved, program)
@@ -118,6 +119,30 @@ def _blank_feeds(block: Block, solved: SolvedBlock, program: Program) -> Iterato
     feed = show(from_mm(solved.plunge_feed, program.unit), Kind.FEED, program.unit)
     text = f"FEED is blank: {subject} cut at PLUNGE FEED {feed}. Enter FEED."
     yield Finding("PLUNGE_FED", Severity.WARNING, text, 1, "feed")
+
+
+def _fast_feeds(solved: SolvedBlock, program: Program) -> Iterator[Finding]:
+    """Warn about a feed faster than a rapid: often it is a speed, typed into the wrong field.
+
+    FEED is only compared with a typed RAPID RATE: fast machines mill faster than the usual one.
+    """
+    rapid = _in_force(program, Form.PARAMETERS, "rapid_feed")
+    if rapid is None:
+        return
+    feeds = [(0, "plunge_feed", "PLUNGE FEED", solved.plunge_feed)]
+    if program.parameters.rapid_feed is not None:
+        typed = ((segment.number, segment.values.get("feed")) for segment in solved.segments)
+        feeds += [
+            (number, "feed", "FEED", to_mm(feed.value, program.unit))
+            for number, feed in typed
+            if isinstance(feed, Number)
+        ]
+    for number, name, label, feed in feeds:
+        if feed is not None and feed > rapid + JOINED:
+            fast, usual = (show(from_mm(each, program.unit), Kind.FEED, program.unit) for each in (feed, rapid))
+            text = f"{label} {fast} is faster than RAPID RATE {usual}. Correct it, or RAPID RATE with F4."
+            yield Finding("FAST_FEED", Severity.WARNING, text, number, name)
+            return
 
 
 def _allowances_without_finish_tool(block: Block, program: Program) -> Iterator[Finding]:

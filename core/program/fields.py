@@ -199,7 +199,7 @@ PARAMETERS: Final = (
     _size("retract_clearance", "RETRACT CLEARANCE", "How far above Z START the tool moves between pecks."),
     _allowance("peck_clearance", "PECK CLEARANCE", "How far above the last depth a rapid down stops."),
     _choice("path", "PATH", "Path to post. CONTROL: as the look-ahead makes it. BEST: the true offset.", PathChoice),
-    _feed("rapid_feed", "RAPID RATE", "Rapid rate of the machine a minute; only for the times."),
+    _feed("rapid_feed", "RAPID RATE", "Rapid rate of the machine a minute, for the times. Faster feeds are reported."),
 )
 
 SETUP: Final = (

@@ -59,6 +59,25 @@ def test_the_plunge_feed_is_shown_in_program_units():
     assert "PLUNGE FEED 500.0." in text
 
 
+def test_a_plunge_feed_faster_than_rapid_is_reported():
+    """2400 is a SPEED (RPM), typed into the wrong field; 200 in a minute is the usual RAPID RATE."""
+    ((finding, text),) = findings_of(fed(5.0, plunge=2400.0), "FAST_FEED")
+    assert (finding.severity, finding.segment, finding.field) == (Severity.WARNING, 0, "plunge_feed")
+    assert text == "PLUNGE FEED 2400.0 is faster than RAPID RATE 200.0. Correct it, or RAPID RATE with F4."
+    assert not findings_of(fed(5.0, plunge=200.0), "FAST_FEED")
+    assert not findings_of(fed(5.0, plunge=None), "FAST_FEED")
+    assert not findings_of(replace(fed(5.0, plunge=5000.0), unit=Unit.MM), "FAST_FEED")
+
+
+def test_a_feed_faster_than_the_typed_rapid_rate_is_reported_once():
+    part = fed(80.0, 300.0, None, 400.0)
+    assert not findings_of(part, "FAST_FEED"), "RAPID RATE is only assumed"
+    part = replace(part, parameters=ProgramParameters(rapid_feed=Number(250.0)))
+    ((finding, text),) = findings_of(part, "FAST_FEED")
+    assert (finding.segment, finding.field) == (2, "feed")
+    assert text == "FEED 300.0 is faster than RAPID RATE 250.0. Correct it, or RAPID RATE with F4."
+
+
 @pytest.mark.parametrize("part", [fed(8.0, None), fed(), fed(None, plunge=None)])
 def test_a_typed_or_unknown_feed_is_not_reported(part):
     assert findings_of(part, "PLUNGE_FED") == []
