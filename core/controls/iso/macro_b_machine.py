@@ -97,9 +97,9 @@ class MacroMachine(Machine):
     has a memory apart from that of H, always or once the program writes to it; until then they share one.
     `unknown` are the axes whose position is unknown; `in_force` has the code of each group; `last_words` the values
     last programmed, for variables that read them; `line` is the line whose expressions are evaluated.
-    `start_unknown`: the block's move starts at a machine position.  `polar` is the radius and angle last programmed
-    under G16, None without it.  `following` is the next block if the corner before it is to be rounded or chamfered;
-    `corner_point` is that corner afterward.
+    `start_unknown`: the block's move starts at a machine position.  `has_height`: a Z has been programmed.  `polar` is
+    the radius and angle last programmed under G16, None without it.  `following` is the next block if the corner before
+    it is to be rounded or chamfered; `corner_point` is that corner afterward.
     """
 
     def __init__(self, dialect: Dialect, control: Control, tools: ToolTable) -> None:
@@ -114,7 +114,7 @@ class MacroMachine(Machine):
         self.polar: tuple[float, float] | None = None
         self.current = Block(1, "")
         self.line = 1
-        self.start_unknown = self.start_height_unknown = False
+        self.start_unknown = self.start_height_unknown = self.has_height = False
         self.other_axes: set[str] = set()
         self.following: Block | None = None
         self.corner_point: Point3 | None = None
@@ -157,6 +157,7 @@ class MacroMachine(Machine):
                 self.unknown.discard(axis)
                 self.start_unknown = True
                 self.start_height_unknown |= axis == 2
+        self.has_height |= "Z" in words
         start = self.transform.undone(start)
         to = super().target(words, start) if self.polar is None else self._polar_target(words, start, *self.polar)
         return self.transform.applied(to)
@@ -434,7 +435,7 @@ class MacroMachine(Machine):
     def _mark_unknown(self, axes: list[int], block: Block) -> None:
         """Mark axes as being at a machine position until their next absolute words; warn if X or Y goes there low."""
         height = self.position[2] - self.shift[2]
-        if {0, 1} & set(axes) and 2 not in self.unknown and height < -ON_PATH:
+        if {0, 1} & set(axes) and self.has_height and 2 not in self.unknown and height < -ON_PATH:
             named = " and ".join("XYZ"[axis] for axis in axes if axis < 2)
             text = (
                 f"The tool is still at Z {{0}} when it goes to the machine's {named}. Raise it in a block before this."

@@ -1255,3 +1255,9 @@ def test_the_height_at_a_machine_point_is_that_of_the_work_offset() -> None:
     text = f"{HEAD}G10 L2 P1 Z-300.\nG54 G0 X50.\nZ5.\nG91 G28 X0.\nM30\n"
     assert {finding.severity for finding in findings_of(ran(text), "HOME")} == {Severity.INFO}
     assert findings_of(ran(text.replace("Z5.", "Z-2.")), "HOME")[0].lengths == (-2.0,)
+
+
+@pytest.mark.parametrize("offset", ["G10 L2 P1 Z50.\nG54", "G52 Z20."])
+def test_the_height_is_not_known_before_the_first_move_in_z(offset: str) -> None:
+    run = ran(f"{HEAD}{offset}\nG91 G28 X0. Y0.\nM30\n")
+    assert {finding.severity for finding in findings_of(run, "HOME")} == {Severity.INFO}
