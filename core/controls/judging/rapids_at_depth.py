@@ -10,6 +10,7 @@ it have cut all that away.
 
 from __future__ import annotations
 
+from bisect import bisect_right
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, replace
 from math import inf
@@ -29,6 +30,9 @@ from core.verify.verdict import Gouge
 
 CLEARED: Final = 0.05
 """Millimeters that the areas of cuts may be off, since shapely's circles are polygons."""
+
+LEAST_RADIUS: Final = 0.2
+"""Millimeters; hardly a tool has a smaller radius."""
 
 
 @dataclass(frozen=True, eq=False, slots=True)
@@ -88,22 +92,22 @@ def moves_through(run: ControlRun, contours: Sequence[CutContour]) -> tuple[Unco
     """Return the cuts of moves outside the compensated stretches into contours in XY, the deepest of each line.
 
     The moves are rapids, and feed moves at the height of a stretch that lead to it or follow it and cut its own
-    contours.  The tool is that of the stretch before, or of the first stretch if there is none before.
+    contours.
     """
     contours = [contour for contour in contours if contour.stretch.plane is Plane.XY and len(contour.path)]
     if not contours:
         return ()
-    ends = np.array([stretch.last for stretch in run.stretches])
-    cuts = list[UncompensatedCut]()
+    cuts, tools = list[UncompensatedCut](), _Tools(run)
     for rows in runs_of(_low_rapids(run, max(contour.top for contour in contours))):
         moves = run.moves.part(int(rows[0]) - 1, int(rows[-1]) + 1)
-        before = max(int(np.searchsorted(ends, rows[0], side="right")) - 1, 0)
-        cuts += _cuts(moves, run.stretches[before].radius, contours, rapid=True)
+        cuts += _cuts(moves, tools.radius(int(rows[0]))[0], contours, rapid=True)
     for row in np.flatnonzero(_low_rapids(run, inf)).tolist():
         below_zero = _below_zero(run.moves.part(row - 1, row + 1))
         if below_zero is not None:
-            before = max(int(np.searchsorted(ends, row, side="right")) - 1, 0)
-            cuts += _cuts_above(run, row, below_zero, run.stretches[before].radius, contours)
+            radius, known = tools.radius(row)
+            # a drill compensates nowhere: only what is near its axis is known to be cut
+            radius = radius if known else min(radius, LEAST_RADIUS)
+            cuts += _cuts_above(run, row, below_zero, radius, contours)
     for stretch, first, last in _adjoining_feeds(run):
         own_contours = [contour for contour in contours if stretch.has_part(contour.stretch)]
         cuts += _cuts(run.moves.part(first, last), stretch.radius, own_contours, rapid=False)
@@ -113,6 +117,26 @@ def moves_through(run: ControlRun, contours: Sequence[CutContour]) -> tuple[Unco
     )
     deepest = {int(cut.gouge.path_number): cut for cut in ranked}
     return tuple(deepest[line] for line in sorted(deepest))
+
+
+class _Tools:
+    """The tools that make the moves outside the compensated stretches of a run."""
+
+    def __init__(self, run: ControlRun) -> None:
+        self.run = run
+        self.ends = [stretch.last for stretch in run.stretches]
+        self.numbers = [run.spindle_at(stretch.first + 1).tool for stretch in run.stretches]
+
+    def radius(self, row: int) -> tuple[float, bool]:
+        """Return the radius of a row's tool, and if it is known.
+
+        It is that of the stretch before with this tool, or else of one after; if no stretch has the tool, that of the
+        stretch before.
+        """
+        tool, index = self.run.spindle_at(row).tool, bisect_right(self.ends, row)
+        nearest_first = (*range(index - 1, -1, -1), *range(index, len(self.ends)))
+        found = next((each for each in nearest_first if tool in (None, self.numbers[each])), None)
+        return self.run.stretches[nearest_first[0] if found is None else found].radius, found is not None
 
 
 def _adjoining_feeds(run: ControlRun) -> Iterator[tuple[Stretch, int, int]]:

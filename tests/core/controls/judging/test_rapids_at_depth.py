@@ -17,7 +17,7 @@ BORE = "G21 G17 G90 G40\nT1 M6\nG0 X20. Y20.\nZ5.\nG1 Z-5. F300\nG41 D1 X30.\nG3
 
 def rapids(program: str, control: str = "fanuc:a", code: str = "RAPID") -> list[Finding]:
     """The findings on rapids at depth."""
-    run = run_of(program, control, t1=10.0)
+    run = run_of(program, control, t1=10.0, t2=6.0)
     assert run.stopped_at is None, run.findings
     return [finding for finding in judged_findings(judge_run(run)) if finding.code == code]
 
@@ -219,3 +219,15 @@ def test_a_rapid_where_the_material_is_cut_away_is_not_reported(floor: str, coun
     """The strip that the rapid at Z-2 runs along is faced to the floor before."""
     faced = BORE.replace("G1 Z-5. F300\n", f"G1 Z{floor} F300\nX80.\nX20.\nG1 Z-5.\n")
     assert len(rapids(f"{faced}G0 Z-2.\nX70.\nZ50.\nM30\n", code="LOW-RAPID")) == count
+
+
+@pytest.mark.parametrize("control", CONTROLS)
+def test_a_rapid_below_zero_has_the_tool_in_the_spindle(control: str) -> None:
+    """A smaller tool fits closer to the wall; of a drill, which compensates nowhere, no size is known."""
+    change = "G0 Z50.\nG40\nT2 M6\nX20. Y20.\nZ5.\nZ-4.\n"
+    drill = f"{BORE}{change}X27.\nX13.\nG1 Z-6.\nG0 Z50.\nM30\n"
+    assert not rapids(drill, control, "LOW-RAPID")
+    assert [finding.line for finding in rapids(drill.replace("X27.", "X47."), control, "LOW-RAPID")] == [15]
+    smaller = f"{BORE}{change}X26.\nX20.\nG1 Z-5.\nG41 D2 X30.\nG3 I-10.\nG40 G1 X20.\nG0 Z50.\nM30\n"
+    assert not rapids(smaller, control, "LOW-RAPID")
+    assert [finding.line for finding in rapids(smaller.replace("X26.", "X27.5"), control, "LOW-RAPID")] == [15]
