@@ -28,7 +28,7 @@ COPY_AND_MOVE: Final = (
     ("COPY BLOCK", "screen.copy_block", "C on PROGRAM"),
     ("MOVE BLOCK UP", "screen.move_block(-1)", "Ctrl+Up on PROGRAM"),
     ("MOVE BLOCK DOWN", "screen.move_block(1)", "Ctrl+Down on PROGRAM"),
-    ("SAME VALUES IN ALL BLOCKS", "screen.share_values", "tool, depths, feeds of this block"),
+    ("SAME VALUES IN ALL BLOCKS", "screen.share_values", "tool, depths, speed of this block"),
 )
 INSERT_AND_DELETE: Final = (
     ("INSERT BLOCK AFTER", "screen.insert_block", "F2 on PROGRAM"),
@@ -88,7 +88,7 @@ class BlockActions(BaseScreen):
 
     @work(exclusive=True, group="question")
     async def action_share_values(self) -> None:
-        """Give the tool, depths, feeds and coolant of this block to all others, after a question."""
+        """Give the tool, depths, speed, plunge feed and coolant of this block to all others, after a question."""
         program, at = self._taken(), self.chosen
         if program is None:
             return
@@ -104,7 +104,7 @@ class BlockActions(BaseScreen):
         word = await self.app.push_screen_wait(Question(title, lines, answers, GO_BACK))
         if word != GO_BACK and self.host.apply(every if word == "ALL" else blank, title):
             which = "All blocks" if word == "ALL" else "The blank fields of all blocks"
-            self.notify(f"{which} are as in block {at}. Ctrl+Z takes it back.", timeout=5)
+            self.notify(f"{which} have the values of block {at} now. Ctrl+Z undoes it.", timeout=5)
 
 
 def shared_words(program: Program, at: int) -> str:

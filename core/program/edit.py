@@ -256,7 +256,7 @@ SHARED_FIELDS: Final = (
 
 
 def share_values(program: Program, at: int, *, only_blank: bool) -> Edited:
-    """Give the tool, depths, feeds and coolant of block `at` to every other block, or to its blank fields only.
+    """Give the tool, depths, speed, plunge feed and coolant of block `at` to the others, or to their blank fields only.
 
     Text that cannot be read is not copied.
     """
@@ -271,7 +271,8 @@ def share_values(program: Program, at: int, *, only_blank: bool) -> Edited:
         taken = {name: value for name, value in given.items() if not only_blank or getattr(block, name) is None}
         blocks.append(changed(block, taken))
     if tuple(blocks) == program.blocks:
-        return Refused(f"The other blocks have the tool, depths and feeds of block {at} already.")
+        text = f"The other blocks already have the tool, depths, speed, plunge feed and coolant of block {at}."
+        return Refused(text)
     return replace(program, blocks=tuple(blocks))
 
 

@@ -276,6 +276,21 @@ async def test_blocks_are_copied_moved_and_deleted_on_the_program_screen(user: O
     assert len(user.session.program.blocks) == 2
 
 
+@pytest.mark.parametrize(("answer", "speed"), [(0, 99.0), (1, 77.0)])
+async def test_the_values_of_a_block_go_into_the_others(user: Operator, answer: int, speed: float):
+    part = user.session.program
+    source = replace(part.blocks[0], speed=Number(99.0))
+    other = replace(part.blocks[0], speed=Number(77.0), z_bottom=None)
+    await user.begin(replace(part, blocks=(source, other)))
+    await run(user, "app.program")
+    await user.app.run_action("screen.share_values")
+    await user.press("home", *["down"] * answer, "enter")
+    await user.finish()
+    second = user.session.program.blocks[1]
+    assert (second.speed, second.z_bottom) == (Number(speed), source.z_bottom)
+    assert any("have the values of block 1 now." in message.message for message in user.app._notifications)
+
+
 async def test_help_explains_the_field_with_the_cursor(user: Operator):
     await user.press("tab", "question_mark")
     assert isinstance(user.app.screen, HelpScreen)

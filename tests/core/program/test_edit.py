@@ -276,7 +276,9 @@ def test_sharing_values_that_all_blocks_have_is_refused():
     assert edit.share_values(Program(blocks=(BLOCK,)), 1, only_blank=False) == Refused("There is no other block.")
     same = Program(blocks=(BLOCK, replace(BLOCK, x_start=Number(2.0))))
     refusal = edit.share_values(same, 1, only_blank=False)
-    assert refusal == Refused("The other blocks have the tool, depths and feeds of block 1 already.")
+    assert refusal == Refused(
+        "The other blocks already have the tool, depths, speed, plunge feed and coolant of block 1."
+    )
     assert isinstance(edit.share_values(same, 3, only_blank=False), Refused)
 
 
