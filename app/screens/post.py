@@ -194,7 +194,7 @@ class PostScreen(EntryScreen):
             return
         if self.made is None:
             self._enter_waits = True
-            self.say("The NC text is still being made; it is posted then. Esc stops it.")
+            self.say("The NC text is still being made and is posted when it is ready. Esc stops it.")
             return
         override = None
         if self.made.against:

@@ -171,7 +171,7 @@ async def test_enter_posts_once_the_text_is_made_unless_the_name_changes(monkeyp
     monkeypatch.chdir(tmp_path)
     async with posting(monkeypatch) as (user, slow):
         await user.press("enter")
-        assert user.prompt == "The NC text is still being made; it is posted then. Esc stops it."
+        assert user.prompt == "The NC text is still being made and is posted when it is ready. Esc stops it."
         await user.press(*typed)
         slow.go.set()
         await user.settle()
