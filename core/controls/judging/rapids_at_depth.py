@@ -13,6 +13,7 @@ from __future__ import annotations
 from bisect import bisect_right
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, replace
+from functools import cached_property
 from math import inf
 from typing import Final
 
@@ -23,7 +24,7 @@ from core.controls.control_run import ControlRun, Stretch
 from core.controls.judging.moves_above import surface_rows
 from core.controls.moves import Move, Moves, Plane
 from core.geometry.nearby import near_pairs
-from core.geometry.path import Flags, Path, chords_of, runs_of
+from core.geometry.path import Flags, Floats, Path, chords_of, runs_of
 from core.tolerance import ON_PATH
 from core.verify.judge import judge
 from core.verify.verdict import Gouge
@@ -35,7 +36,7 @@ LEAST_RADIUS: Final = 0.2
 """Millimeters; hardly a tool has a smaller radius."""
 
 
-@dataclass(frozen=True, eq=False, slots=True)
+@dataclass(frozen=True, eq=False)
 class CutContour:
     """A contour of a stretch, the height of its highest cut, and how far the radii of its arcs may differ."""
 
@@ -43,6 +44,12 @@ class CutContour:
     stretch: Stretch
     top: float
     accepted: float
+
+    @cached_property
+    def bounds(self) -> tuple[Floats, Floats]:
+        """The least and the largest x and y of the boxes of its path."""
+        boxes = self.path.boxes
+        return boxes[:2].min(axis=1), boxes[2:].max(axis=1)
 
 
 def highest_cut(stretch: Stretch) -> float:
@@ -184,11 +191,20 @@ def _cuts(moves: Moves, radius: float, contours: Sequence[CutContour], *, rapid:
     path, height = moves.path(), float(moves.points[:, 2].max())
     cuts = list[UncompensatedCut]()
     for contour in contours:
-        if height > contour.top + ON_PATH or not any(True for _ in near_pairs(path.boxes, contour.path.boxes, radius)):
+        if height > contour.top + ON_PATH or not _is_near(path, contour, radius):
             continue
         verdict = judge(contour.path, contour.stretch.side, radius, path, contour.accepted, measures_uncut=False)
         cuts += [UncompensatedCut(gouge, height, rapid) for gouge in verdict.gouges]
     return cuts
+
+
+def _is_near(path: Path, contour: CutContour, radius: float) -> bool:
+    """True if boxes of a path and of a contour are no farther apart than a radius."""
+    boxes, (low, high) = path.boxes, contour.bounds
+    first, last = boxes[:2].min(axis=1, initial=inf), boxes[2:].max(axis=1, initial=-inf)
+    if (first > high + radius).any() or (last < low - radius).any():
+        return False
+    return any(len(rows) for rows, _ in near_pairs(boxes, contour.path.boxes, radius))
 
 
 def _below_zero(move: Moves) -> Moves | None:
@@ -211,7 +227,7 @@ def _cuts_above(
     path, low, high = move.path(), float(move.points[:, 2].min()), float(move.points[:, 2].max())
     cuts = list[UncompensatedCut]()
     for contour in contours:
-        if high <= contour.top + ON_PATH or not any(True for _ in near_pairs(path.boxes, contour.path.boxes, radius)):
+        if high <= contour.top + ON_PATH or not _is_near(path, contour, radius):
             continue
         verdict = judge(contour.path, contour.stretch.side, radius, path, contour.accepted, measures_uncut=False)
         cuts += [UncompensatedCut(gouge, low, rapid=True, above=True) for gouge in verdict.gouges]

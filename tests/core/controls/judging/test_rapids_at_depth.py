@@ -2,12 +2,16 @@
 
 from __future__ import annotations
 
+from typing import Any
+
 import pytest
 
+from core.controls.judging import rapids_at_depth
 from core.controls.judging.judged_findings import judged_findings
 from core.controls.judging.judged_runs import judge_run
 from core.finding import Finding, Severity
 from core.units import Unit, sentence
+from core.verify.judge import judge
 from tests.core.controls.hand import run_of
 
 CONTROLS = ["fanuc:a", "haas:a", "linuxcnc", "rosettacnc:normal"]
@@ -231,3 +235,19 @@ def test_a_rapid_below_zero_has_the_tool_in_the_spindle(control: str) -> None:
     smaller = f"{BORE}{change}X26.\nX20.\nG1 Z-5.\nG41 D2 X30.\nG3 I-10.\nG40 G1 X20.\nG0 Z50.\nM30\n"
     assert not rapids(smaller, control, "LOW-RAPID")
     assert [finding.line for finding in rapids(smaller.replace("X26.", "X27.5"), control, "LOW-RAPID")] == [15]
+
+
+def test_a_rapid_is_judged_with_the_contours_that_it_comes_near(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Hundreds of holes would take minutes if each rapid were judged with each of them."""
+    judged = list[float]()
+
+    def counting(*arguments: Any, **options: Any) -> Any:
+        judged.append(arguments[2])
+        return judge(*arguments, **options)
+
+    monkeypatch.setattr(rapids_at_depth, "judge", counting)
+    hole = "G0 X{0}. Y20.\nG1 Z-5.\nG41 D1 X{1}.\nG3 I-10.\nG40 G1 X{0}.\nG0 Z-1.\n"
+    holes = "".join(hole.format(x, x + 10) for x in range(100, 500, 50))
+    assert len(rapids(f"{BORE}G0 Z-1.\n{holes}Z50.\nM30\n", code="LOW-RAPID")) == 1
+    # a rapid comes near the hole that it leaves and the one that it goes to
+    assert len(judged) == 16
