@@ -13,7 +13,6 @@ from __future__ import annotations
 from bisect import bisect_right
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, replace
-from functools import cached_property
 from math import inf
 from typing import Final
 
@@ -23,8 +22,8 @@ from shapely import LineString, Point, unary_union
 from core.controls.control_run import ControlRun, Stretch
 from core.controls.judging.moves_above import surface_rows
 from core.controls.moves import Move, Moves, Plane
-from core.geometry.nearby import near_pairs
-from core.geometry.path import Flags, Floats, Path, chords_of, runs_of
+from core.geometry.nearby import BoxTree, near_pairs
+from core.geometry.path import Flags, Path, chords_of, runs_of
 from core.tolerance import ON_PATH
 from core.verify.judge import judge
 from core.verify.verdict import Gouge
@@ -36,7 +35,7 @@ LEAST_RADIUS: Final = 0.2
 """Millimeters; hardly a tool has a smaller radius."""
 
 
-@dataclass(frozen=True, eq=False)
+@dataclass(frozen=True, eq=False, slots=True)
 class CutContour:
     """A contour of a stretch, the height of its highest cut, and how far the radii of its arcs may differ."""
 
@@ -45,11 +44,24 @@ class CutContour:
     top: float
     accepted: float
 
-    @cached_property
-    def bounds(self) -> tuple[Floats, Floats]:
-        """The least and the largest x and y of the boxes of its path."""
-        boxes = self.path.boxes
-        return boxes[:2].min(axis=1), boxes[2:].max(axis=1)
+
+class _CutContours:
+    """Contours, with a search tree of the box around each."""
+
+    def __init__(self, contours: Sequence[CutContour]) -> None:
+        self.contours = contours
+        self.boxes = [contour.path.boxes for contour in contours]
+        outer = [np.concatenate((boxes[:2].min(axis=1), boxes[2:].max(axis=1))) for boxes in self.boxes]
+        self.tree = BoxTree.of(np.column_stack(outer))
+
+    def near(self, path: Path, reach: float) -> list[CutContour]:
+        """Return the contours of which a box is no farther from a box of a path than `reach`."""
+        rows = sorted({row for _, rows in near_pairs(path.boxes, self.tree, reach) for row in rows.tolist()})
+        return [
+            self.contours[row]
+            for row in rows
+            if any(len(pairs) for pairs, _ in near_pairs(path.boxes, self.boxes[row], reach))
+        ]
 
 
 def highest_cut(stretch: Stretch) -> float:
@@ -104,20 +116,21 @@ def moves_through(run: ControlRun, contours: Sequence[CutContour]) -> tuple[Unco
     contours = [contour for contour in contours if contour.stretch.plane is Plane.XY and len(contour.path)]
     if not contours:
         return ()
-    cuts, tools = list[UncompensatedCut](), _Tools(run)
+    cuts, tools, all_contours = list[UncompensatedCut](), _Tools(run), _CutContours(contours)
     for rows in runs_of(_low_rapids(run, max(contour.top for contour in contours))):
         moves = run.moves.part(int(rows[0]) - 1, int(rows[-1]) + 1)
-        cuts += _cuts(moves, tools.radius(int(rows[0]))[0], contours, rapid=True)
+        cuts += _cuts(moves, tools.radius(int(rows[0]))[0], all_contours, rapid=True)
     for row in np.flatnonzero(_low_rapids(run, inf)).tolist():
         below_zero = _below_zero(run.moves.part(row - 1, row + 1))
         if below_zero is not None:
             radius, known = tools.radius(row)
             # a drill compensates nowhere: only what is near its axis is known to be cut
             radius = radius if known else min(radius, LEAST_RADIUS)
-            cuts += _cuts_above(run, row, below_zero, radius, contours)
+            cuts += _cuts_above(run, row, below_zero, radius, all_contours)
     for stretch, first, last in _adjoining_feeds(run):
         own_contours = [contour for contour in contours if stretch.has_part(contour.stretch)]
-        cuts += _cuts(run.moves.part(first, last), stretch.radius, own_contours, rapid=False)
+        if own_contours:
+            cuts += _cuts(run.moves.part(first, last), stretch.radius, _CutContours(own_contours), rapid=False)
     # a cut at depth takes precedence, and a wall that is already cut over one that is yet to be cut
     ranked = sorted(
         cuts, key=lambda cut: (not cut.above, cut.gouge.surface_number < cut.gouge.path_number, cut.gouge.depth)
@@ -187,24 +200,15 @@ def _low_rapids(run: ControlRun, top: float) -> Flags:
     return low
 
 
-def _cuts(moves: Moves, radius: float, contours: Sequence[CutContour], *, rapid: bool) -> list[UncompensatedCut]:
+def _cuts(moves: Moves, radius: float, contours: _CutContours, *, rapid: bool) -> list[UncompensatedCut]:
     path, height = moves.path(), float(moves.points[:, 2].max())
     cuts = list[UncompensatedCut]()
-    for contour in contours:
-        if height > contour.top + ON_PATH or not _is_near(path, contour, radius):
+    for contour in contours.near(path, radius):
+        if height > contour.top + ON_PATH:
             continue
         verdict = judge(contour.path, contour.stretch.side, radius, path, contour.accepted, measures_uncut=False)
         cuts += [UncompensatedCut(gouge, height, rapid) for gouge in verdict.gouges]
     return cuts
-
-
-def _is_near(path: Path, contour: CutContour, radius: float) -> bool:
-    """True if boxes of a path and of a contour are no farther apart than a radius."""
-    boxes, (low, high) = path.boxes, contour.bounds
-    first, last = boxes[:2].min(axis=1, initial=inf), boxes[2:].max(axis=1, initial=-inf)
-    if (first > high + radius).any() or (last < low - radius).any():
-        return False
-    return any(len(rows) for rows, _ in near_pairs(boxes, contour.path.boxes, radius))
 
 
 def _below_zero(move: Moves) -> Moves | None:
@@ -221,13 +225,13 @@ def _below_zero(move: Moves) -> Moves | None:
 
 
 def _cuts_above(
-    run: ControlRun, row: int, move: Moves, radius: float, contours: Sequence[CutContour]
+    run: ControlRun, row: int, move: Moves, radius: float, contours: _CutContours
 ) -> list[UncompensatedCut]:
     """Return the cuts of a rapid into contours that are cut lower, unless feed moves before have cut all that away."""
     path, low, high = move.path(), float(move.points[:, 2].min()), float(move.points[:, 2].max())
     cuts = list[UncompensatedCut]()
-    for contour in contours:
-        if high <= contour.top + ON_PATH or not _is_near(path, contour, radius):
+    for contour in contours.near(path, radius):
+        if high <= contour.top + ON_PATH:
             continue
         verdict = judge(contour.path, contour.stretch.side, radius, path, contour.accepted, measures_uncut=False)
         cuts += [UncompensatedCut(gouge, low, rapid=True, above=True) for gouge in verdict.gouges]
