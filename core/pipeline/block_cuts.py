@@ -77,8 +77,8 @@ def cuts_of_control(
     deepest = dict[tuple[int, int], ContourCut]()
     for cut in cuts_into_other_contours(walls, list(sweeps.values())):
         pair = cut.sweep.number, cut.wall.number
-        told = pair in known or (cut.through and pair[::-1] in known)
-        if not told and (pair not in deepest or cut.gouge.depth > deepest[pair].gouge.depth):
+        is_known = pair in known or (cut.through and pair[::-1] in known)
+        if not is_known and (pair not in deepest or cut.gouge.depth > deepest[pair].gouge.depth):
             deepest[pair] = cut
     return tuple(_lead_finding(cut, control) for cut in deepest.values())
 

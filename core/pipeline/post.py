@@ -55,12 +55,12 @@ def _cuts_by_leads(
     The moves into the cut and out of it are the control's: the block's verdict does not know them.
     """
     tools = {} if is_klartext(control) else tools_of(cuts, STYLE_OF_CONTROL[control])
-    made = run(posted.text.encode("ascii"), control, tools, derived.program.unit)
+    control_run = run(posted.text.encode("ascii"), control, tools, derived.program.unit)
     # read back, it has a stretch for each of them
     compensated = [cut for cut in cuts if isinstance(cut, CompensatedPass)]
     sweeps = list[tuple[int, Moves, float]]()
-    for cut, stretch in zip(compensated, made.stretches, strict=True):
-        sweeps.append((cut.block or 0, made.moves.part(stretch.first, stretch.last), cut.diameter / 2))
+    for cut, stretch in zip(compensated, control_run.stretches, strict=True):
+        sweeps.append((cut.block or 0, control_run.moves.part(stretch.first, stretch.last), cut.diameter / 2))
     return cuts_of_control(derived.blocks, jobs_of_blocks, sweeps, display_name(control))
 
 

@@ -264,12 +264,12 @@ def share_values(program: Program, at: int, *, only_blank: bool) -> Edited:
         return refusal
     if len(program.blocks) == 1:
         return Refused("There is no other block.")
-    given = {name: getattr(program.blocks[at - 1], name) for name in SHARED_FIELDS}
-    given = {name: value for name, value in given.items() if not isinstance(value, Unread)}
+    values = {name: getattr(program.blocks[at - 1], name) for name in SHARED_FIELDS}
+    values = {name: value for name, value in values.items() if not isinstance(value, Unread)}
     blocks = []
     for block in program.blocks:
-        taken = {name: value for name, value in given.items() if not only_blank or getattr(block, name) is None}
-        blocks.append(changed(block, taken))
+        copied = {name: value for name, value in values.items() if not only_blank or getattr(block, name) is None}
+        blocks.append(changed(block, copied))
     if tuple(blocks) == program.blocks:
         text = f"The other blocks already have the tool, depths, speed, plunge feed and coolant of block {at}."
         return Refused(text)
