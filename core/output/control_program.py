@@ -43,11 +43,18 @@ def control_program_errors(jobs: Sequence[Job], unit: Unit) -> tuple[Finding, ..
 
 
 def control_program(
-    jobs: Sequence[Job], cuts: Sequence[PassToWrite], unit: Unit, *, name: str, control: str, part: str = ""
+    jobs: Sequence[Job],
+    cuts: Sequence[PassToWrite],
+    unit: Unit,
+    *,
+    name: str,
+    control: str,
+    part: str = "",
+    warnings: Sequence[Finding] = (),
 ) -> Posted | Refusal:
     """Return the program for a control, given by its full name, or the refusal; `cuts` are those of the jobs, in order.
 
-    `name` is the program's name, `part` the PART NAME.
+    `name` is the program's name, `part` the PART NAME.  `warnings` are added to its notes.
     """
     errors = control_program_errors(jobs, unit)
     if errors:
@@ -55,7 +62,7 @@ def control_program(
 
     def remarks(notes: Sequence[Finding]) -> Sequence[str]:
         # a semicolon would end the block even inside a comment, or begin another comment
-        texts = (*program_titles(name, part), *_header(jobs, cuts, unit, control, notes))
+        texts = (*program_titles(name, part), *_header(jobs, cuts, unit, control, (*notes, *warnings)))
         lines = [line for text in texts for line in comments(in_ascii(text).replace(";", ","))]
         return [line[1:-1] for line in lines] if is_klartext(control) else lines
 
@@ -70,7 +77,7 @@ def control_program(
     if style is not None and not style.comments and part.strip():
         text = f"PART NAME {printable(part)} is not in the file: {display_name(control)} has no comments."
         notes.append(Finding("PART_NAME", Severity.INFO, text, field="name"))
-    return replace(written, notes=(*notes, *written.notes))
+    return replace(written, notes=(*notes, *written.notes, *warnings))
 
 
 def _operator_notes(jobs: Sequence[Job], cuts: Sequence[PassToWrite], unit: Unit, control: str) -> Iterator[Finding]:
@@ -117,8 +124,9 @@ def _header(
         yield f"BLOCK {job.block} MILL CONTOUR CUTTER COMP. {job.comp} {depth}"
         yield from job.notes
     for note in (*_operator_notes(jobs, cuts, unit, control), *notes):
-        block = "" if note.block is None or len(jobs) == 1 else f"BLOCK {note.block} "
-        where = "" if note.segment is None else f"{block}SEGMENT {note.segment:g}: "
+        places = [] if note.block is None or len(jobs) == 1 else [f"BLOCK {note.block}"]
+        places += [] if note.segment is None else [f"SEGMENT {note.segment:g}"]
+        where = f"{' '.join(places)}: " if places else ""
         text = sentence(note, unit)
         code = "" if text.startswith(note.code) else f"{note.code} "
         yield f"NOTE {code}{where}{text}"

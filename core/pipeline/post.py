@@ -13,6 +13,7 @@ from core.controls.registry import is_klartext, run
 from core.controls.write.contour_pass import CenterMove, CompensatedPass, PassToWrite, UncompensatedPass
 from core.controls.write.iso_program import tools_of
 from core.controls.write.iso_style import STYLE_OF_CONTROL
+from core.controls.write.lead_moves import LEAD_LENGTHS
 from core.controls.write.written_program import Posted, Refusal
 from core.finding import Finding, Severity
 from core.geometry.construct import rotated
@@ -34,17 +35,40 @@ def post_center_path(derived: Derived, *, name: str, override: str | None = None
 
 
 def post_control_program(derived: Derived, *, name: str, control: str) -> Posted | Refusal:
-    """Return the program for a control, by its full name in the registry, or the refusal."""
+    """Return the program for a control, by its full name in the registry, or the refusal.
+
+    A lead that cuts into the contour of another block is made shorter; if that does not help, a warning says so.
+    """
     unit, all_jobs = derived.program.unit, jobs(derived)
     best = _best_path_refused(derived) if any(job.comp != "ON" for job in all_jobs) else ()
     errors = (*control_program_errors(all_jobs, unit), *best)
     if errors:
         return Refusal(errors, unit)
     cuts = [cut for block, job in zip(derived.blocks, all_jobs, strict=True) for cut in _cuts(block, job)]
-    posted = control_program(all_jobs, cuts, unit, name=name, control=control, part=derived.program.setup.name)
+
+    def written(warnings: tuple[Finding, ...] = ()) -> Posted | Refusal:
+        part = derived.program.setup.name
+        return control_program(all_jobs, cuts, unit, name=name, control=control, part=part, warnings=warnings)
+
+    posted = written()
     if isinstance(posted, Refusal) or len(derived.blocks) < 2:
         return posted
-    return replace(posted, notes=(*posted.notes, *_cuts_by_leads(derived, all_jobs, cuts, posted, control)))
+    warnings = _cuts_by_leads(derived, all_jobs, cuts, posted, control)
+    # Klartext needs no leads
+    for longest in () if is_klartext(control) else LEAD_LENGTHS[1:]:
+        if not warnings:
+            return posted
+        cutting, kept = {warning.block for warning in warnings}, cuts
+        cuts = [
+            replace(cut, longest_lead=longest) if isinstance(cut, CompensatedPass) and cut.block in cutting else cut
+            for cut in cuts
+        ]
+        shorter = written()
+        if isinstance(shorter, Refusal):
+            cuts = kept
+            break
+        posted, warnings = shorter, _cuts_by_leads(derived, all_jobs, cuts, shorter, control)
+    return written(warnings) if warnings else posted
 
 
 def _cuts_by_leads(

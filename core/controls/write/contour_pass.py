@@ -9,7 +9,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import dataclass
-from math import hypot, pi
+from math import hypot, inf, pi
 from typing import Final, NamedTuple
 
 from core.comp.compensated import Compensated
@@ -90,9 +90,10 @@ class ContourPass:
 
 @dataclass(frozen=True, eq=False, slots=True, kw_only=True)
 class CompensatedPass(ContourPass):
-    """A pass and the compensated contour that it follows."""
+    """A pass and the compensated contour that it follows; its leads are at most `longest_lead` tool radii long."""
 
     compensated: Compensated
+    longest_lead: float = inf
 
 
 @dataclass(frozen=True, eq=False, slots=True, kw_only=True)

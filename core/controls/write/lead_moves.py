@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
-from math import hypot
+from math import hypot, inf
 from typing import Final
 
 from core.controls.compensation.elements import Element, arc_element, line_element, point_along
@@ -47,13 +47,16 @@ def clear_leads(
     surface: ProtectedContour,
     into: Sequence[Piece] = (),
     off: Sequence[Piece] = (),
+    longest: float = inf,
 ) -> tuple[Point, Point] | float:
     """Return where the longest leads that cut nothing start and end, or how deep the shortest ones cut.
 
-    Lengths are multiples of `radius`.  `into` follows the lead-in; `off` precedes the lead-out.
+    Lengths are multiples of `radius`, at most `longest`.  `into` follows the lead-in; `off` precedes the lead-out.
     """
     depth = 0.0
     for length in LEAD_LENGTHS:
+        if length > longest:
+            continue
         if style.entry is EntryRule.SQUARE_TO_ITSELF and length <= MIN_SQUARE_LENGTH:
             continue
         start, out = _start(first, style, length * radius), point_along(last.at, last.outward, length * radius)

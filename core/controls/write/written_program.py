@@ -110,9 +110,8 @@ def _with_clear_leads(cut: CompensatedPass, style: IsoStyle) -> PassWithLeads | 
     """Return the cut with the longest leads that cut nothing, or why there is none."""
     compensated, radius = cut.compensated, cut.compensated.radius
     first, last = path_begin(compensated), path_finish(compensated)
-    leads = clear_leads(
-        first, last, style, radius, ProtectedContour(compensated.contour, compensated.side, cut.diameter / 2)
-    )
+    surface = ProtectedContour(compensated.contour, compensated.side, cut.diameter / 2)
+    leads = clear_leads(first, last, style, radius, surface, longest=cut.longest_lead)
     if isinstance(leads, float):
         text = "There is no room for the straight move into the cut and out of it: it gouges by {0}."
         start = "Start" if first.blend else "Enter BLEND OFFSET, start"
