@@ -303,6 +303,13 @@ def test_compensation_in_a_loop_that_is_never_run_is_a_warning(condition: str, r
     assert [finding.line for finding in idle] == ([] if runs else [7])
 
 
+@pytest.mark.parametrize("control", ["fanuc:a", "nine-series:a", "linuxcnc"])
+def test_compensation_in_a_subprogram_that_nothing_calls_is_one_warning(control: str) -> None:
+    text = b"G21 G17 G90 G40\nT1 M6\nG0 X20. Y20.\nM30\nO2\nG1 F300.\nG41 D1 X30.\nG3 I-10.\nG40 G1 X20.\nM99\n"
+    row = answer(text, request_for(control, CutterTool(1, 10.0)))
+    assert [finding.line for finding in row.findings if finding.code == "NOT_RUN"] == [5]
+
+
 def test_klartext_compensation_that_is_jumped_over_is_a_warning() -> None:
     text = "BEGIN PGM A MM\nTOOL CALL 1 Z S1000\nL X+0 Y-30 R0 FMAX\n{}L X+0 Y+0 RL F100\nL Y+40\nL X+40 R0\nLBL 1\n"
     text += "L Z+50 R0 FMAX\nEND PGM A MM\n"
