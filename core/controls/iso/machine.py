@@ -46,7 +46,7 @@ _ARC_TURNS: Final = {20: -1, 30: 1}
 _G53: Final = 530
 G80: Final = 800
 _SURFACE_SPEED: Final = 960
-_TOOL_CHANGE: Final = 60
+TOOL_CHANGE: Final = 60
 _PLANE_CODES: Final = {Plane.XY: 170.0, Plane.ZX: 180.0, Plane.YZ: 190.0}
 _POSITION_PARAMETERS: Final = {5420: 0, 5421: 1, 5422: 2, "_X": 0, "_Y": 1, "_Z": 2}
 _LINE_CODES: Final = (0, 10)
@@ -292,7 +292,7 @@ class Machine(ModalState):
         if number is not None:
             self.control.tool_called(number, block)
             self.select_tool(number, block)
-        if _TOOL_CHANGE in block.m:
+        if TOOL_CHANGE in block.m:
             self.tool = self.next_tool
             self.control.tool_changed()
         if self.control.active and self.side_on and 400 not in block.g and self.tool != before:

@@ -17,7 +17,7 @@ from core.controls.control_tools import ToolTable
 from core.controls.iso.arcs import IN_PLANE
 from core.controls.iso.dialect import Code, CodeAction, Dialect, p_is_of_g54
 from core.controls.iso.expressions import FaultError
-from core.controls.iso.machine import Control, Machine
+from core.controls.iso.machine import TOOL_CHANGE, Control, Machine
 from core.controls.iso.macro_b import VACANT
 from core.controls.iso.modal_state import EXTERNAL_OFFSET, ORIGIN, TAKEN_AS_ZERO
 from core.controls.iso.reader import Block, whole, whole_word
@@ -97,9 +97,10 @@ class MacroMachine(Machine):
     has a memory apart from that of H, always or once the program writes to it; until then they share one.
     `unknown` are the axes whose position is unknown; `in_force` has the code of each group; `last_words` the values
     last programmed, for variables that read them; `line` is the line whose expressions are evaluated.
-    `start_unknown`: the block's move starts at a machine position.  `has_height`: a Z has been programmed.  `polar` is
-    the radius and angle last programmed under G16, None without it.  `following` is the next block if the corner before
-    it is to be rounded or chamfered; `corner_point` is that corner afterward.
+    `start_unknown`: the block's move starts at a machine position in the plane.  `has_height`: a Z has been programmed.
+    `probed`: a probe may have stopped the last move.  `polar` is the radius and angle last programmed under G16, None
+    without it.  `following` is the next block if the corner before it is to be rounded or chamfered; `corner_point` is
+    that corner afterward.
     """
 
     def __init__(self, dialect: Dialect, control: Control, tools: ToolTable) -> None:
@@ -114,7 +115,7 @@ class MacroMachine(Machine):
         self.polar: tuple[float, float] | None = None
         self.current = Block(1, "")
         self.line = 1
-        self.start_unknown = self.start_height_unknown = self.has_height = False
+        self.start_unknown = self.start_height_unknown = self.has_height = self.probed = False
         self.other_axes: set[str] = set()
         self.following: Block | None = None
         self.corner_point: Point3 | None = None
@@ -155,7 +156,7 @@ class MacroMachine(Machine):
                     text = f"Where {letter} stands after the move to the machine's point is not known. Write G90."
                     self.log.stop("FN-WHERE", text, self.current.at(letter))
                 self.unknown.discard(axis)
-                self.start_unknown = True
+                self.start_unknown |= axis in self.plane.axes[:2]
                 self.start_height_unknown |= axis == 2
         self.has_height |= "Z" in words
         start = self.transform.undone(start)
@@ -213,8 +214,9 @@ class MacroMachine(Machine):
         self._cut_corner(block, end, beyond)
 
     def _note_lost_height(self) -> None:
-        """Tell the tape if the height of the next move is unknown, since Z is or starts at a machine position."""
-        self.control.tape.lost = 2 in self.unknown or self.start_height_unknown
+        """Tell the tape if the height or the start of the next move is unknown, after a machine position or a probe."""
+        self.control.tape.lost = 2 in self.unknown or self.start_height_unknown or self.probed
+        self.probed = False
 
     def _goes_on_straight(self, block: Block) -> bool:
         letters = {"XYZ"[axis] for axis in self.plane.axes[:2]}
@@ -280,6 +282,12 @@ class MacroMachine(Machine):
 
     # codes
 
+    def _take_tool(self, block: Block) -> None:
+        super()._take_tool(block)
+        if TOOL_CHANGE in block.m and self.has_height:
+            # the machine raises the tool to where it changes it
+            self.unknown.add(2)
+
     def _act(self, code: Code, block: Block) -> None:
         if code.action is CodeAction.SIDE and code.value != 400 and self.transform.flips(self.plane):
             code = replace(code, value=830 - code.value)
@@ -300,6 +308,7 @@ class MacroMachine(Machine):
             text = "Where a skip signal stops this move is not known; cutcomp runs it to its end."
             self.log.warn("FN-SKIP", text, block.at("G", 310))
             self._straight(block, self.target(block.words), rapid=False)
+            self.probed = True
         else:
             super()._run_non_modal(code, block)
 

@@ -34,7 +34,10 @@ from core.units import Kind, decimals_shown, to_mm
 from core.verify.surface import Leads
 
 JUDGING_SHARE: Final = 0.8
-"""Progress when every stretch is judged; comparing their contours with one another takes the rest."""
+"""Progress when every stretch is judged; the moves between them and their contours with one another take the rest."""
+
+MOVES_SHARE: Final = 0.9
+"""Progress when the moves between the stretches are judged too."""
 
 
 def judge_run(run: ControlRun, progress: Progress = silent) -> tuple[JudgedContour, ...]:
@@ -48,7 +51,8 @@ def judge_run(run: ControlRun, progress: Progress = silent) -> tuple[JudgedConto
     # a shallower gouge than half the last digit that a control shows is none
     least = to_mm(0.5 * 10.0 ** -decimals_shown(Kind.LENGTH, run.unit), run.unit)
     results, heights = list[JudgedContour](), heights_above(run)
-    judging, comparing = part_of(progress, 0.0, JUDGING_SHARE), part_of(progress, JUDGING_SHARE, 1.0)
+    judging, comparing = part_of(progress, 0.0, JUDGING_SHARE), part_of(progress, MOVES_SHARE, 1.0)
+    between = part_of(progress, JUDGING_SHARE, MOVES_SHARE)
     for index, stretch in enumerate(run.stretches):
         judging(index / len(run.stretches))
         cut_short = run.stops_within(stretch)
@@ -63,7 +67,7 @@ def judge_run(run: ControlRun, progress: Progress = silent) -> tuple[JudgedConto
             )
             for result in results
         ]
-        cuts = tuple(cut for cut in moves_through(run, contours) if cut.gouge.depth >= least)
+        cuts = tuple(cut for cut in moves_through(run, contours, between) if cut.gouge.depth >= least)
         others = tuple(cut for cut in cuts_of_other_contours(run, contours, comparing) if cut.gouge.depth >= least)
         results[0] = replace(results[0], uncompensated_cuts=cuts, cuts_into_others=others)
     return tuple(results)

@@ -24,6 +24,7 @@ from core.controls.judging.moves_above import surface_rows
 from core.controls.moves import Move, Moves, Plane
 from core.geometry.nearby import BoxTree, near_pairs
 from core.geometry.path import Flags, Path, chords_of, runs_of
+from core.progress import Progress, part, silent
 from core.tolerance import ON_PATH
 from core.verify.judge import judge
 from core.verify.verdict import Gouge
@@ -107,7 +108,9 @@ class UncompensatedCut:
     above: bool = False
 
 
-def moves_through(run: ControlRun, contours: Sequence[CutContour]) -> tuple[UncompensatedCut, ...]:
+def moves_through(
+    run: ControlRun, contours: Sequence[CutContour], progress: Progress = silent
+) -> tuple[UncompensatedCut, ...]:
     """Return the cuts of moves outside the compensated stretches into contours in XY, the deepest of each line.
 
     The moves are rapids, and feed moves at the height of a stretch that lead to it or follow it and cut its own
@@ -117,17 +120,21 @@ def moves_through(run: ControlRun, contours: Sequence[CutContour]) -> tuple[Unco
     if not contours:
         return ()
     cuts, tools, all_contours = list[UncompensatedCut](), _Tools(run), _CutContours(contours)
+    at_depth, over_walls, beside = (part(progress, third / 3.0, (third + 1) / 3.0) for third in range(3))
     for rows in runs_of(_low_rapids(run, max(contour.top for contour in contours))):
+        at_depth(int(rows[0]) / len(run.moves))
         moves = run.moves.part(int(rows[0]) - 1, int(rows[-1]) + 1)
         cuts += _cuts(moves, tools.radius(int(rows[0]))[0], all_contours, rapid=True)
     for row in np.flatnonzero(_low_rapids(run, inf)).tolist():
+        over_walls(row / len(run.moves))
         below_zero = _below_zero(run.moves.part(row - 1, row + 1))
         if below_zero is not None:
             radius, known = tools.radius(row)
             # a drill compensates nowhere: only what is near its axis is known to be cut
             radius = radius if known else min(radius, LEAST_RADIUS)
-            cuts += _cuts_above(run, row, below_zero, radius, all_contours)
+            cuts += _cuts_above(tools, row, below_zero, radius, all_contours)
     for stretch, first, last in _adjoining_feeds(run):
+        beside(first / len(run.moves))
         own_contours = [contour for contour in contours if stretch.has_part(contour.stretch)]
         if own_contours:
             cuts += _cuts(run.moves.part(first, last), stretch.radius, _CutContours(own_contours), rapid=False)
@@ -146,6 +153,7 @@ class _Tools:
         self.run = run
         self.ends = [stretch.last for stretch in run.stretches]
         self.numbers = [run.spindle_at(stretch.first + 1).tool for stretch in run.stretches]
+        self.largest = max(stretch.radius for stretch in run.stretches)
 
     def radius(self, row: int) -> tuple[float, bool]:
         """Return the radius of a row's tool, and if it is known.
@@ -224,9 +232,7 @@ def _below_zero(move: Moves) -> Moves | None:
     return replace(move, points=points, centers=points)
 
 
-def _cuts_above(
-    run: ControlRun, row: int, move: Moves, radius: float, contours: _CutContours
-) -> list[UncompensatedCut]:
+def _cuts_above(tools: _Tools, row: int, move: Moves, radius: float, contours: _CutContours) -> list[UncompensatedCut]:
     """Return the cuts of a rapid into contours that are cut lower, unless feed moves before have cut all that away."""
     path, low, high = move.path(), float(move.points[:, 2].min()), float(move.points[:, 2].max())
     cuts = list[UncompensatedCut]()
@@ -235,19 +241,19 @@ def _cuts_above(
             continue
         verdict = judge(contour.path, contour.stretch.side, radius, path, contour.accepted, measures_uncut=False)
         cuts += [UncompensatedCut(gouge, low, rapid=True, above=True) for gouge in verdict.gouges]
-    return [cut for cut in cuts if not _is_cut_away(run, row, low, cut.gouge.at, radius)]
+    return [cut for cut in cuts if not _is_cut_away(tools, row, low, cut.gouge.at, radius)]
 
 
-def _is_cut_away(run: ControlRun, row: int, height: float, center: tuple[float, float], radius: float) -> bool:
+def _is_cut_away(tools: _Tools, row: int, height: float, center: tuple[float, float], radius: float) -> bool:
     """True if feed moves before a row have cut the tool's circle about a center free, at a height or below."""
-    moves = run.moves.part(0, row)
+    moves = tools.run.moves.part(0, row)
     feeds = moves.low(height) & ~moves.rapid & moves.moving_in(Plane.XY)
     ends, arms = moves.points[:, :2], (moves.points - moves.centers)[:, :2]
     starts = np.vstack((ends[:1], ends[:-1]))
     # a line has its end as center: its arm has no length
-    reach = 2.0 * radius + np.hypot(arms[:, :1], arms[:, 1:])
+    reach = radius + tools.largest + np.hypot(arms[:, :1], arms[:, 1:])
     far = (np.maximum(starts, ends) + reach < center) | (np.minimum(starts, ends) - reach > center)
     near = np.flatnonzero(feeds & ~far.any(axis=1)).tolist()
-    chords = [chords_of(moves.part(each - 1, each + 1).path(), CLEARED / 2.0) for each in near]
-    swept = unary_union([LineString(points).buffer(radius) for points in chords])
+    chords = [(chords_of(moves.part(each - 1, each + 1).path(), CLEARED / 2.0), each) for each in near]
+    swept = unary_union([LineString(points).buffer(tools.radius(each)[0]) for points, each in chords])
     return bool(swept.covers(Point(center).buffer(radius - CLEARED)))

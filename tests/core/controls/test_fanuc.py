@@ -1242,6 +1242,7 @@ def test_a_warning_on_a_line_is_kept_after_information_on_its_first_run(first: s
         ("G53 G0 Z0.\nG53 X0. Y0.", ""),
         ("G0 Z1.\nG91 G28 X0. Y0. Z0.", ""),
         ("G91 G28 X0. Y0. Z10.", ""),
+        ("T2 M6\nG91 G28 X0. Y0.", ""),
     ],
 )
 def test_x_and_y_that_leave_for_a_machine_point_at_depth_are_a_warning(control: str, home: str, axes: str) -> None:
@@ -1261,3 +1262,12 @@ def test_the_height_at_a_machine_point_is_that_of_the_work_offset() -> None:
 def test_the_height_is_not_known_before_the_first_move_in_z(offset: str) -> None:
     run = ran(f"{HEAD}{offset}\nG91 G28 X0. Y0.\nM30\n")
     assert {finding.severity for finding in findings_of(run, "HOME")} == {Severity.INFO}
+
+
+@pytest.mark.parametrize("control", ["fanuc:a", "fanuc:b"])
+def test_a_start_up_from_a_height_at_the_machines_point_is_an_ordinary_one(control: str) -> None:
+    """Only Z is at the machine's point: where the move starts in the plane is known."""
+    text = f"{HEAD}G0 X0. Y0.\nG91 G28 Z0.\nG90 G41 D1 X50. Y0. Z5.\nG1 X90. F100.\nG40 Y50.\nM30\n"
+    run = ran(text, control)
+    assert run.stopped_at is None
+    assert not findings_of(run, "FN-WHERE")

@@ -9,10 +9,12 @@ import pytest
 from core.controls.judging import rapids_at_depth
 from core.controls.judging.judged_findings import judged_findings
 from core.controls.judging.judged_runs import judge_run
+from core.controls.judging.rapids_at_depth import CutContour, moves_through
 from core.finding import Finding, Severity
 from core.units import Unit, sentence
 from core.verify.judge import judge
 from tests.core.controls.hand import run_of
+from tests.progress import looks_until_stopped
 
 CONTROLS = ["fanuc:a", "haas:a", "linuxcnc", "rosettacnc:normal"]
 BORE = "G21 G17 G90 G40\nT1 M6\nG0 X20. Y20.\nZ5.\nG1 Z-5. F300\nG41 D1 X30.\nG3 I-10.\nG40 G1 X20.\n"
@@ -129,6 +131,23 @@ def test_a_move_to_a_machine_position_ends_the_known_depth(home: str, control: s
     ]
 
 
+@pytest.mark.parametrize("control", ["fanuc:a", "haas:a"])
+def test_a_tool_change_ends_the_known_depth(control: str) -> None:
+    """These machines raise the tool to change it; LinuxCNC leaves it where it is."""
+    text = f"{BORE}T2 M6\nG0 X70.\nX20.\nG43 H2 Z{{}}\nX70.\nG91 G28 X0. Y0.\nM30\n"
+    assert not rapids(text.format("5."), control)
+    assert [finding.line for finding in rapids(text.format("-5."), control)] == [13]
+    assert [finding.line for finding in rapids(f"{BORE}T2 M6\nG0 X70.\nZ5.\nM30\n", "linuxcnc")] == [10]
+
+
+@pytest.mark.parametrize("control", ["fanuc:a", "haas:a"])
+def test_a_rapid_from_where_a_probe_stopped_is_not_reported(control: str) -> None:
+    """Where the stylus is, and how large it is, only the control knows; the next rapid is an ordinary one."""
+    for change in ("T9 M6\n", ""):
+        text = f"{BORE}G0 Z50.\n{change}G0 X20. Y20.\nZ-5.\nG31 X30. F100.\n#100=#5061\nG0 X20.\nX70.\nM30\n"
+        assert [finding.line for finding in rapids(text, control)] == [15 + bool(change)]
+
+
 @pytest.mark.parametrize("home", ["G91 G28 X0. Y0.\nG90\n", "G53 G0 X0. Y0.\n"])
 def test_a_rapid_that_ends_in_a_wall_is_reported_wherever_it_starts(home: str) -> None:
     """Only X and Y are at the machine position: the depth and the end of the rapid are known."""
@@ -195,7 +214,7 @@ def test_a_rapid_below_zero_over_a_deeper_wall_is_reported(control: str) -> None
     assert (warning.line, warning.severity) == (10, Severity.WARNING)
     assert sentence(warning, Unit.MM) == (
         "The rapids of lines 10, 11 run below Z 0 over a wall that is cut deeper, first at X 30.000 Y 20.000, "
-        "lowest at Z -1.000. Check the sign of Z, and that the tool clears the part."
+        "lowest at Z -1.000. Check the sign of Z, and that the part is cleared there."
     )
     assert not rapids(program.replace("Z-1.", "Z1."), control, "LOW-RAPID")
     assert not rapids(program.replace("Z-1.", "Z-5."), control, "LOW-RAPID")
@@ -225,6 +244,16 @@ def test_a_rapid_where_the_material_is_cut_away_is_not_reported(floor: str, coun
     assert len(rapids(f"{faced}G0 Z-2.\nX70.\nZ50.\nM30\n", code="LOW-RAPID")) == count
 
 
+@pytest.mark.parametrize(("rougher", "count"), [("T2 M6\n", 0), ("", 1)])
+def test_each_tool_cuts_away_what_its_own_size_reaches(rougher: str, count: int) -> None:
+    """By hand: along Y10 the 20 mm tool clears Y0 to Y20, the 10 mm tool Y5 to Y15; the rapid needs Y9 to Y19."""
+    head = f"G21 G17 G90 G40\nT1 M6\n{rougher}G0 X-30. Y10.\nZ5.\nG1 Z-3. F300\nX130.\nG0 Z50.\n"
+    large = "X200. Y100.\nG1 Z-5.\nG41 D2 X230.\nG3 I-30.\nG40 G1 X200.\nG0 Z50.\nT1 M6\n"
+    rapid = "G0 X-30. Y14.\nZ-3.\nX50.\nG1 Z-8.\nG41 D1 X60.\nG3 I-10.\nG40 G1 X50.\nG0 Z50.\nM30\n"
+    run = run_of(f"{head}{large}{rapid}", "fanuc:a", t1=10.0, t2=20.0)
+    assert [finding.code for finding in judged_findings(judge_run(run))].count("LOW-RAPID") == count
+
+
 @pytest.mark.parametrize("control", CONTROLS)
 def test_a_rapid_below_zero_has_the_tool_in_the_spindle(control: str) -> None:
     """A smaller tool fits closer to the wall; of a drill, which compensates nowhere, no size is known."""
@@ -251,3 +280,15 @@ def test_a_rapid_is_judged_with_the_contours_that_it_comes_near(monkeypatch: pyt
     assert len(rapids(f"{BORE}G0 Z-1.\n{holes}Z50.\nM30\n", code="LOW-RAPID")) == 1
     # a rapid comes near the hole that it leaves and the one that it goes to
     assert len(judged) == 16
+
+
+def test_a_canceled_judgment_stops_at_every_kind_of_move() -> None:
+    """A rapid at depth, one below zero over a wall, and the feed moves beside the contour."""
+    run = run_of(f"{BORE}G1 X22.\nG0 X70.\nZ-1.\nX20.\nZ50.\nM30\n", "fanuc:a", t1=10.0)
+    contours = [CutContour(result.surface, result.stretch, -5.0, 0.0) for result in judge_run(run)]
+    shares = list[float]()
+    assert len(moves_through(run, contours, shares.append)) == 2
+    assert shares == sorted(shares)
+    assert {int(3.0 * share) for share in shares} == {0, 1, 2}
+    for granted in range(len(shares)):
+        assert looks_until_stopped(lambda check: moves_through(run, contours, check), granted) == granted + 1
