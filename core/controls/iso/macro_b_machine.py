@@ -98,9 +98,9 @@ class MacroMachine(Machine):
     `unknown` are the axes whose position is unknown; `in_force` has the code of each group; `last_words` the values
     last programmed, for variables that read them; `line` is the line whose expressions are evaluated.
     `start_unknown`: the block's move starts at a machine position in the plane.  `has_height`: a Z has been programmed.
-    `probed`: a probe may have stopped the last move.  `polar` is the radius and angle last programmed under G16, None
-    without it.  `following` is the next block if the corner before it is to be rounded or chamfered; `corner_point` is
-    that corner afterward.
+    `raised`: since then a tool change has raised the tool.  `probed`: a probe may have stopped the last move.  `polar`
+    is the radius and angle last programmed under G16, None without it.  `following` is the next block if the corner before
+    it is to be rounded or chamfered; `corner_point` is that corner afterward.
     """
 
     def __init__(self, dialect: Dialect, control: Control, tools: ToolTable) -> None:
@@ -115,7 +115,7 @@ class MacroMachine(Machine):
         self.polar: tuple[float, float] | None = None
         self.current = Block(1, "")
         self.line = 1
-        self.start_unknown = self.start_height_unknown = self.has_height = self.probed = False
+        self.start_unknown = self.start_height_unknown = self.has_height = self.raised = self.probed = False
         self.other_axes: set[str] = set()
         self.following: Block | None = None
         self.corner_point: Point3 | None = None
@@ -158,7 +158,9 @@ class MacroMachine(Machine):
                 self.unknown.discard(axis)
                 self.start_unknown |= axis in self.plane.axes[:2]
                 self.start_height_unknown |= axis == 2
-        self.has_height |= "Z" in words
+        if "Z" in words:
+            self.start_height_unknown |= self.raised
+            self.has_height, self.raised = True, False
         start = self.transform.undone(start)
         to = super().target(words, start) if self.polar is None else self._polar_target(words, start, *self.polar)
         return self.transform.applied(to)
@@ -215,7 +217,7 @@ class MacroMachine(Machine):
 
     def _note_lost_height(self) -> None:
         """Tell the tape if the height or the start of the next move is unknown, after a machine position or a probe."""
-        self.control.tape.lost = 2 in self.unknown or self.start_height_unknown or self.probed
+        self.control.tape.lost = 2 in self.unknown or self.start_height_unknown or self.raised or self.probed
         self.probed = False
 
     def _goes_on_straight(self, block: Block) -> bool:
@@ -284,9 +286,7 @@ class MacroMachine(Machine):
 
     def _take_tool(self, block: Block) -> None:
         super()._take_tool(block)
-        if TOOL_CHANGE in block.m and self.has_height:
-            # the machine raises the tool to where it changes it
-            self.unknown.add(2)
+        self.raised |= self.has_height and TOOL_CHANGE in block.m
 
     def _act(self, code: Code, block: Block) -> None:
         if code.action is CodeAction.SIDE and code.value != 400 and self.transform.flips(self.plane):
@@ -444,7 +444,8 @@ class MacroMachine(Machine):
     def _mark_unknown(self, axes: list[int], block: Block) -> None:
         """Mark axes as being at a machine position until their next absolute words; warn if X or Y goes there low."""
         height = self.position[2] - self.shift[2]
-        if {0, 1} & set(axes) and self.has_height and 2 not in self.unknown and height < -ON_PATH:
+        known = self.has_height and not self.raised and 2 not in self.unknown
+        if {0, 1} & set(axes) and known and height < -ON_PATH:
             named = " and ".join("XYZ"[axis] for axis in axes if axis < 2)
             text = (
                 f"The tool is still at Z {{0}} when it goes to the machine's {named}. Raise it in a block before this."

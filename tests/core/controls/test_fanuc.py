@@ -1271,3 +1271,10 @@ def test_a_start_up_from_a_height_at_the_machines_point_is_an_ordinary_one(contr
     run = ran(text, control)
     assert run.stopped_at is None
     assert not findings_of(run, "FN-WHERE")
+
+
+def test_a_program_in_increments_goes_on_after_a_tool_change() -> None:
+    """Where the machine changes tools is its own matter: the increments count from the programmed height."""
+    run = ran(f"{HEAD}G0 Z10.\nG91 Z-5.\nT2 M6\nG0 X9.\nZ-2.\nM30\n")
+    assert run.stopped_at is None
+    assert run.moves.points[-1].tolist() == [9.0, 0.0, 3.0]
