@@ -99,8 +99,8 @@ class MacroMachine(Machine):
     last programmed, for variables that read them; `line` is the line whose expressions are evaluated.
     `start_unknown`: the block's move starts at a machine position in the plane.  `has_height`: a Z has been programmed.
     `raised`: since then a tool change has raised the tool.  `probed`: a probe may have stopped the last move.  `polar`
-    is the radius and angle last programmed under G16, None without it.  `following` is the next block if the corner before
-    it is to be rounded or chamfered; `corner_point` is that corner afterward.
+    is the radius and angle last programmed under G16, None without it.  `following` is the next block if the corner
+    before it is to be rounded or chamfered; `corner_point` is that corner afterward.
     """
 
     def __init__(self, dialect: Dialect, control: Control, tools: ToolTable) -> None:
