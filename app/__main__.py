@@ -25,27 +25,30 @@ Type a MILL CONTOUR from the drawing, see what the cutter will do, write the NC 
 def main(arguments: list[str] | None = None) -> int:
     """Run the program with these arguments, or with the command line's; return the exit status."""
     given = sys.argv[1:] if arguments is None else arguments
-    if not given:
-        return screens(None)
-    word = given[0]
-    if word == "check":
-        from app.cli.check import check
+    match given:
+        case []:
+            return screens(None)
+        case ["check", *rest]:
+            from app.cli.check import check
 
-        return check(given[1:])
-    if word == "proof":
-        from app.cli.screens import proof
+            return check(rest)
+        case ["proof", *rest]:
+            from app.cli.screens import proof
 
-        return proof(given[1:])
-    if word == "import":
-        from app.cli.import_contours import import_contours
+            return proof(rest)
+        case ["import", *rest]:
+            from app.cli.import_contours import import_contours
 
-        return import_contours(given[1:])
-    if word in COMMAND_HELP:
-        from app.cli.commands import command
+            return import_contours(rest)
+        case [word, *_] if word in COMMAND_HELP:
+            from app.cli.commands import command
 
-        return command(given)
-    # a file alone needs no parser, so that the screens appear sooner
-    return _parsed(given) if len(given) > 1 or word.startswith("-") else screens(Path(word))
+            return command(given)
+        case [word] if not word.startswith("-"):
+            # a file alone needs no parser, so that the screens appear sooner
+            return screens(Path(word))
+        case _:
+            return _parsed(given)
 
 
 def _parsed(given: list[str]) -> int:

@@ -20,7 +20,7 @@ pytest.importorskip("textual_serve", reason="the extra web is not installed")
 
 import aiohttp
 
-from app.cli import web_children
+from app.cli import web_server
 from app.cli.web_server import FULL_TEXT, MAX_PAGES, ScreenServer
 from tests.app.serving import children, free_port, none_left, server, some_children
 
@@ -160,7 +160,7 @@ async def test_a_requested_size_is_limited(monkeypatch: pytest.MonkeyPatch) -> N
 
 
 async def test_a_program_ends_when_its_page_reads_nothing(monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(web_children, "MAX_UNREAD_SECONDS", 0.5)
+    monkeypatch.setattr(web_server, "MAX_UNREAD_SECONDS", 0.5)
     async with served(monkeypatch, python(FLOOD)) as site:
         reader, writer = await asyncio.open_connection("127.0.0.1", int(site.root.rpartition(":")[2]), limit=1024)
         writer.write(handshake(site.root))
@@ -171,7 +171,7 @@ async def test_a_program_ends_when_its_page_reads_nothing(monkeypatch: pytest.Mo
 
 
 async def test_a_program_that_reads_no_keys_is_ended(monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(web_children, "MAX_UNREAD_SECONDS", 0.5)
+    monkeypatch.setattr(web_server, "MAX_UNREAD_SECONDS", 0.5)
     deaf = "import time; print('__GANGLION__', flush=True); time.sleep(60)"
     async with served(monkeypatch, python(deaf)) as site:
         page = await site.page()
@@ -190,7 +190,7 @@ async def test_only_the_beginning_of_a_programs_errors_is_logged(
         await page.close()
         assert await none_left(started, 5.0) == []
     complaints = [len(record.getMessage()) for record in caplog.records if record.levelname == "ERROR"]
-    assert complaints == [web_children.MAX_COMPLAINT_BYTES]
+    assert complaints == [web_server.MAX_COMPLAINT_BYTES]
 
 
 def handshake(root: str) -> bytes:
