@@ -93,13 +93,15 @@ def _port(text: str) -> int:
 
 
 def _derived(path: Path, block: int | None = None, lookahead: str | None = None) -> Derived:
+    """Return a file's program derived, or only one block of it, with another look-ahead if one is given."""
     from core.pipeline.derive import derive, with_better_paths
 
     program = _program(path)
     if block is not None and not 1 <= block <= len(program.blocks):
         has = f"blocks 1 to {len(program.blocks)}" if len(program.blocks) > 1 else "1 block"
         raise Unusable(f"--block {block}: {path} has {has}.")
-    return with_better_paths(derive(program if lookahead is None else _with_lookahead(program, lookahead)))
+    derived = with_better_paths(derive(program if lookahead is None else _with_lookahead(program, lookahead)))
+    return derived if block is None else replace(derived, blocks=(derived.block(block),))
 
 
 def _program(path: Path) -> Program:
@@ -121,16 +123,12 @@ def _with_lookahead(program: Program, text: str) -> Program:
     return replace(program, blocks=tuple(replace(block, lookahead=value) for block in program.blocks))
 
 
-def _chosen(derived: Derived, number: int | None) -> tuple[DerivedBlock, ...]:
-    return derived.blocks if number is None else (derived.block(number),)
+def _status(derived: Derived) -> int:
+    return STATUS_FINDINGS if any(block.errors for block in derived.blocks) else STATUS_CLEAN
 
 
-def _status(derived: Derived, number: int | None) -> int:
-    return STATUS_FINDINGS if any(block.errors for block in _chosen(derived, number)) else STATUS_CLEAN
-
-
-def _report(derived: Derived, number: int | None) -> None:
-    for block in _chosen(derived, number):
+def _report(derived: Derived) -> None:
+    for block in derived.blocks:
         for finding in block.findings:
             where = f", {segment_name(finding.segment)}" if finding.segment else ""
             say(f"block {block.number}{where}: {finding.severity}: {sentence(finding, derived.program.unit)}")
@@ -142,22 +140,20 @@ def path(options: argparse.Namespace) -> int:
 
     derived = _derived(options.file, options.block, options.lookahead)
     if options.json:
-        deliver(f"{json.dumps(path_document(derived, options.block), allow_nan=False)}\n", None)
+        deliver(f"{json.dumps(path_document(derived), allow_nan=False)}\n", None)
     else:
-        deliver("".join(f"{line}\n" for line in path_listing(derived, options.block)), None)
-        _report(derived, options.block)
-    return _status(derived, options.block)
+        deliver("".join(f"{line}\n" for line in path_listing(derived)), None)
+        _report(derived)
+    return _status(derived)
 
 
 def lookahead(options: argparse.Namespace) -> int:
     """Run `cutcomp lookahead`, which prints the result of every value, and what the contour needs."""
     from core.pipeline.command_output import table_document, table_listing
-    from core.pipeline.derive import look_ahead_table
 
     derived = _derived(options.file, options.block)
     unit = derived.program.unit
-    chosen = _chosen(derived, options.block)
-    tables = [(block, _annotated(block, look_ahead_table(block, derived.program), derived.program)) for block in chosen]
+    tables = [(block, _annotated(block, derived.program)) for block in derived.blocks]
     if options.json:
         blocks = [table_document(block, table, unit) for block, table in tables]
         text = json.dumps({"units": str(unit), "blocks": blocks}, allow_nan=False)
@@ -165,14 +161,15 @@ def lookahead(options: argparse.Namespace) -> int:
         text = "\n\n".join("\n".join(table_listing(block, table, unit)) for block, table in tables)
     deliver(f"{text}\n", None)
     if not options.json:
-        _report(derived, options.block)
-    return _status(derived, options.block)
+        _report(derived)
+    return _status(derived)
 
 
-def _annotated(block: DerivedBlock, table: Table | None, program: Program) -> Table | None:
-    """Return the table with what the contour needs as its notes."""
-    from core.pipeline.derive import advice_for_block
+def _annotated(block: DerivedBlock, program: Program) -> Table | None:
+    """Return a block's table with what the contour needs as its notes."""
+    from core.pipeline.derive import advice_for_block, look_ahead_table
 
+    table = look_ahead_table(block, program)
     return None if table is None else replace(table, notes=advice_for_block(block, program, table))
 
 
@@ -188,7 +185,7 @@ def post(options: argparse.Namespace) -> int:
         result = post_center_path(derived, name=name, override=options.override)
     else:
         result = post_control_program(derived, name=name, control=control)
-    _report(derived, None)
+    _report(derived)
     if question := unit_question(derived):
         say(f"{question.severity}: {sentence(question, derived.program.unit)}")
     if not isinstance(result, Posted):
@@ -200,7 +197,7 @@ def post(options: argparse.Namespace) -> int:
     for note in result.notes:
         say(f"{note.severity}: {located_sentence(note, derived.program.unit)}")
     deliver(result.text, options.output)
-    return _status(derived, None)
+    return _status(derived)
 
 
 def _override_hint(result: Refusal, options: argparse.Namespace) -> str:
@@ -234,8 +231,8 @@ def plot(options: argparse.Namespace) -> int:
     as_dxf = options.output is not None and options.output.suffix.lower() == ".dxf"
     text = dxf_of(derived) if as_dxf else svg_of(derived, title=_name(options.file))
     deliver(text, options.output)
-    _report(derived, None)
-    return _status(derived, None)
+    _report(derived)
+    return _status(derived)
 
 
 def sheet(options: argparse.Namespace) -> int:
