@@ -13,7 +13,7 @@ from __future__ import annotations
 
 import re
 from collections import Counter
-from collections.abc import Callable, Iterable, Iterator
+from collections.abc import Callable, Iterator
 from dataclasses import dataclass, field
 from functools import lru_cache
 from itertools import compress
@@ -132,15 +132,6 @@ class Cell(NamedTuple):
         return self.text == " " and not self.style.attributes
 
 
-class Run(NamedTuple):
-    """Text of one style that begins at a cell."""
-
-    row: int
-    column: int
-    text: str
-    style: Style
-
-
 Line = list[Cell | None]
 """None marks an unknown cell; then the whole line is unknown."""
 
@@ -170,27 +161,20 @@ class TerminalCells:
         """Return what to send so that the terminal shows what `data` would make it show."""
         if NEUTRAL.fullmatch(data):
             return data
-        columns, rows = self._current_size()
-        picture = parse_paint(data, columns, rows)
-        if picture is None or not (self.lines or picture.whole(columns, rows)):
-            self._drop_known()
-            return data
-        self.lines = self.lines or [[None] * columns for _ in range(rows)]
-        return self._update(picture.over(self.lines), picture.cursor)
-
-    def _current_size(self) -> tuple[int, int]:
-        """Return the terminal's columns and rows; drop the known cells if stale or of another size."""
         columns, rows = self.size()
         if self.stale or (self.lines and (len(self.lines[0]), len(self.lines)) != (columns, rows)):
             self._drop_known()
-        return columns, rows
-
-    def _update(self, lines: Iterable[tuple[int, Line]], cursor: tuple[int, int]) -> str:
-        """Return what changes the known lines into these and moves the cursor; the new lines are known then."""
-        writer = _CellWriter(self.cursor, len(self.lines[0]), self.erases)
-        for row, line in lines:
-            writer.line(row, self.lines[row], line)
-            self.lines[row] = line
+        known = self.lines or [[None] * columns for _ in range(rows)]
+        changed, cursor = parse_paint(data, columns, known)
+        # without known cells, a picture must cover the whole terminal
+        if cursor is None or not (self.lines or sum(None not in line for line in changed.values()) == rows):
+            self._drop_known()
+            return data
+        self.lines = known
+        writer = CellWriter(self.cursor, columns, self.erases)
+        for row, line in sorted(changed.items()):
+            writer.line(row, known[row], line)
+            known[row] = line
         writer.move(*cursor)
         self.cursor = cursor
         writer.pen.turn(PLAIN_STYLE)
@@ -200,29 +184,6 @@ class TerminalCells:
         # cleared first: a `forget` from here on takes effect at the next write
         self.stale = False
         self.lines, self.cursor = [], None
-
-
-@dataclass(slots=True)
-class Paint:
-    """Runs of text on the terminal, and the cursor (row, column) after them."""
-
-    runs: list[Run] = field(default_factory=list)
-    cursor: tuple[int, int] = (0, 0)
-
-    def whole(self, columns: int, rows: int) -> bool:
-        """True if the picture covers the whole terminal."""
-        covered = [set[int]() for _ in range(rows)]
-        for run in self.runs:
-            covered[run.row].update(range(run.column, run.column + len(run.text)))
-        return all(len(line) == columns for line in covered)
-
-    def over(self, lines: list[Line]) -> Iterator[tuple[int, Line]]:
-        """Yield the lines that the picture changes, in order, with their new cells."""
-        changed: dict[int, Line] = {}
-        for row, column, text, style in self.runs:
-            line = changed.setdefault(row, lines[row].copy()) if row not in changed else changed[row]
-            line[column : column + len(text)] = map(_styled(style).__getitem__, text)
-        yield from sorted(changed.items())
 
 
 class Cells(dict[str, Cell]):
@@ -257,26 +218,30 @@ def neighbors(line: Line, columns: list[int]) -> Iterator[tuple[int, str, Style]
         yield first, text, style
 
 
-def parse_paint(data: str, columns: int, rows: int) -> Paint | None:
-    """Return the picture that a text paints; None if it does anything else or leaves the terminal's area."""
+def parse_paint(data: str, columns: int, lines: list[Line]) -> tuple[dict[int, Line], tuple[int, int] | None]:
+    """Return the lines that a text changes, with their new cells, and the cursor (row, column) after it.
+
+    The cursor is None if the text does anything but paint, or leaves the terminal's area.
+    """
     # text before the first cursor position would go wherever the cursor is
-    picture, style, row, column = Paint(), PLAIN_STYLE, rows, 0
+    changed, style, row, column = dict[int, Line](), PLAIN_STYLE, len(lines), 0
     for parameters, place, other, text in TOKEN.findall(data):
         if text:
-            if row >= rows or column + len(text) > columns or not is_single_cell(text):
-                return None
-            picture.runs.append(Run(row, column, text, style))
+            if row >= len(lines) or column + len(text) > columns or not is_single_cell(text):
+                return {}, None
+            if row not in changed:
+                changed[row] = lines[row].copy()
+            changed[row][column : column + len(text)] = map(_styled(style).__getitem__, text)
             column += len(text)
         elif other == "\n" or place == "\r\n":
             row, column = row + 1, 0
         elif match := PLACE.fullmatch(place):
             row, column = int(match[1]) - 1, int(match[2]) - 1
         elif other:
-            return None
+            return {}, None
         else:
             style = PLAIN_STYLE if parameters in ("", "0") else style_of(parameters)
-    picture.cursor = row, column
-    return picture if row < rows and column < columns else None
+    return changed, (row, column) if row < len(lines) and column < columns else None
 
 
 def is_single_cell(text: str) -> bool:
@@ -285,7 +250,7 @@ def is_single_cell(text: str) -> bool:
 
 
 @dataclass(slots=True)
-class _CellWriter:
+class CellWriter:
     """Writes cells; holds the cursor's position and what goes to the terminal."""
 
     cursor: tuple[int, int] | None

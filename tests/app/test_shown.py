@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
 from typing import Any
 
 import pyte
@@ -10,7 +9,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from app.terminal.cell_diff import Line, Paint, TerminalCells
+from app.terminal.cell_diff import CellWriter, Line, TerminalCells
 
 COLUMNS, ROWS = 12, 4
 STYLES = ("", "0", "31", "44", "31;44", "1;38;2;1;2;3;48;5;4", "4", "7", "39;49", "2;44")
@@ -163,15 +162,14 @@ def test_a_new_size_forgets_the_picture() -> None:
 def test_everything_is_sent_after_forgetting_in_the_middle_of_a_write(monkeypatch: pytest.MonkeyPatch) -> None:
     watched = Watched()
     watched.write(covering("a"))
-    over = Paint.over
+    written = CellWriter.line
 
-    def resized_meanwhile(picture: Paint, lines: list[Line]) -> Iterator[tuple[int, Line]]:
-        for row in over(picture, lines):
-            watched.shown.forget()
-            yield row
+    def resized_meanwhile(writer: CellWriter, row: int, old: Line, new: Line) -> None:
+        written(writer, row, old, new)
+        watched.shown.forget()
 
-    monkeypatch.setattr(Paint, "over", resized_meanwhile)
+    monkeypatch.setattr(CellWriter, "line", resized_meanwhile)
     watched.write(covering("b"))
-    monkeypatch.setattr(Paint, "over", over)
+    monkeypatch.setattr(CellWriter, "line", written)
     assert watched.write(covering("b")).count("b") == COLUMNS * ROWS
     assert watched.alike
