@@ -29,6 +29,7 @@ from app.session.block_findings import Entry
 from app.session.messages import Tone
 from app.session.posting import CENTER_PATH
 from app.session.session import Session
+from app.terminal.driver import has_mouse, redraw, take_mouse
 from app.terminal.split_keys import KEY_WARNINGS
 from app.transform_actions import TransformActions
 from app.widgets.plain import PRINTABLE
@@ -368,16 +369,10 @@ class CutcompApp(TransformActions):
 
     def action_redraw(self) -> None:
         """Send the whole screen again: other programs may have written to the terminal."""
-        # imported here: not every system has the terminal interface that the driver needs
-        from app.terminal.driver import redraw
-
         redraw(self)
 
     def action_mouse(self) -> None:
         """Turn the mouse on, or leave it to the terminal, from now on."""
-        # imported here: not every system has the terminal interface that the driver needs
-        from app.terminal.driver import has_mouse, take_mouse
-
         take_mouse(self, not has_mouse(self))
         text = "Clicks act here." if has_mouse(self) else "The mouse is the terminal's again: it marks and copies text."
         self.say(text)

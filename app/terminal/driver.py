@@ -68,17 +68,8 @@ PLAIN_TERMS: Final = ("linux", "vt1", "vt2")
 """How TERM begins if the terminal may show a control sequence with a $ in it."""
 
 
-class AtOnce(StrEnum):
-    """Esc and a digit in one packet, named as Textual names Alt and the digit from terminals with a newer protocol."""
-
-    ALT_1 = "alt+1"
-    ALT_2 = "alt+2"
-    ALT_3 = "alt+3"
-    ALT_4 = "alt+4"
-    ALT_5 = "alt+5"
-    ALT_6 = "alt+6"
-    ALT_7 = "alt+7"
-    ALT_8 = "alt+8"
+AtOnce = StrEnum("AtOnce", "alt+1 alt+2 alt+3 alt+4 alt+5 alt+6 alt+7 alt+8")
+"""Esc and a digit in one packet, named as Textual names Alt and the digit from terminals with a newer protocol."""
 
 
 class TerminalDriver(LinuxDriver):
