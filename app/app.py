@@ -235,9 +235,8 @@ class CutcompApp(TransformActions):
     @work(group="question")
     async def _bring_over_proofs(self, depth: int) -> None:
         """Bring the screen at `depth` to the front; ask about the NC texts on top of it and close them."""
-        screens_above = self.screen_stack[depth + 1 :]
-        documents = [proof.document for proof in self.proofs if proof in screens_above]
-        if await self.close_documents("LEAVE NC PROOF?", documents):
+        above = [proof for proof in self.proofs if proof in self.screen_stack[depth + 1 :]]
+        if await self.close_documents("LEAVE NC PROOF?", above):
             self._uncover(depth)
 
     def action_command_palette(self) -> None:

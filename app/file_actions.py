@@ -6,7 +6,7 @@ The document service makes the decisions and knows no screens; this module shows
 from __future__ import annotations
 
 import asyncio
-from collections.abc import Callable, Iterable
+from collections.abc import Callable, Sequence
 from dataclasses import replace
 from functools import partial
 from pathlib import Path
@@ -17,7 +17,7 @@ from textual import work
 from app.derivation_actions import DerivationActions
 from app.documents import paths, questions
 from app.documents.document import AnyDocument, ContourDocument, Document, NcDocument
-from app.documents.document_service import DocumentService, Notice, Offer, Opened, Saved, Trouble
+from app.documents.document_service import DocumentService, Notice, Offer, Opened, Trouble
 from app.documents.files import refuse_program, write_output
 from app.documents.nc_text import NC_SUFFIXES
 from app.documents.questions import QuestionText
@@ -247,7 +247,7 @@ class FileActions(DerivationActions):
     async def _show_opened(self, opened: Opened[Any]) -> None:
         """Show an opened document; a program first closes everything else, as only one can be open."""
         document = opened.document
-        if isinstance(document, ContourDocument) and not await self.close_documents("OPEN?", self._all_open()):
+        if isinstance(document, ContourDocument) and not await self._close_everything("OPEN?"):
             self.disk.do(lambda: self.service.close(document))
         else:
             self.show_opened(opened)
@@ -263,7 +263,7 @@ class FileActions(DerivationActions):
             proof = next((proof for proof in self.proofs if proof.document.file.opening is document.file.opening), None)
             self._uncover(0 if proof is None else self.screen_stack.index(proof))
             self.say(trouble.text)
-        elif await self.close_documents("OPEN AGAIN?", self._all_open()):
+        elif await self._close_everything("OPEN AGAIN?"):
             result = self.disk.do(opened)
             self.show_opened(result if isinstance(result, Opened) else self.service.new())
             if isinstance(result, Trouble):
@@ -282,35 +282,36 @@ class FileActions(DerivationActions):
 
     async def _new(self, title: str, unit: Unit) -> bool:
         """Start a new program if everything open may be closed; return whether it was started."""
-        if not await self.close_documents(title, self._all_open()):
+        if not await self._close_everything(title):
             return False
         self.show_opened(self.service.new(unit))
         return True
 
-    def _all_open(self) -> list[Document]:
-        return [self.document, *(proof.document for proof in self.proofs)]
+    async def _close_everything(self, title: str) -> bool:
+        return await self.close_documents(title, self.proofs, program=True)
 
-    async def close_documents(self, title: str, documents: Iterable[Document]) -> bool:
-        """Close documents, which removes their journals and locks, if they may be; return whether they were closed."""
-        closing = tuple(documents)
+    async def close_documents(self, title: str, proofs: Sequence[ProofScreen], *, program: bool = False) -> bool:
+        """Close NC texts, and the program too if asked to, unless the operator keeps unsaved work open.
+
+        Closing removes their journals and locks.  Return whether they were closed.
+        """
+        if not await self._may_close(title, proofs, program=program):
+            return False
+        closing = (*((self.document,) if program else ()), *(proof.document for proof in proofs))
 
         def close() -> None:
             for document in closing:
                 self.service.close(document)
 
-        may_close = await self._may_close(title, closing)
-        if may_close:
-            self.disk.do(close)
-        return may_close
+        self.disk.do(close)
+        return True
 
-    async def _may_close(self, title: str, documents: Iterable[Document]) -> bool:
+    async def _may_close(self, title: str, proofs: Sequence[ProofScreen], *, program: bool) -> bool:
         """Return whether documents may be closed: they are saved, or the operator saves or discards the changes."""
-        openings = {document.file.opening for document in documents}
-        proofs = [proof for proof in self.proofs if proof.document.file.opening in openings]
         if not all(proof.take_lines() for proof in proofs):
             return False
-        ours = [self.document] if self.document.file.opening in openings else []
-        half_typed = self.screen.half_typed_sentence if ours and isinstance(self.screen, BaseScreen) else ""
+        ours = [self.document] if program else []
+        half_typed = self.screen.half_typed_sentence if program and isinstance(self.screen, BaseScreen) else ""
         ask = questions.leaving(title, [*ours, *(proof.document for proof in proofs)], half_typed)
         word = questions.DISCARD if ask is None else await self.ask(ask)
         if word != questions.SAVE:
@@ -320,7 +321,7 @@ class FileActions(DerivationActions):
         for proof in proofs:
             if proof.document.unsaved and not await self.saved(proof, None):
                 return False
-        return not ours or not self.document.unsaved or await self.saved(None, None)
+        return not program or not self.document.unsaved or await self.saved(None, None)
 
     def show_nc(self, document: NcDocument, check_request: CheckRequest | None = None) -> None:
         """Open NC PROOF on a text; `check_request` holds the control, tools and unit of the command line."""
@@ -338,14 +339,18 @@ class FileActions(DerivationActions):
 
     # ---- save
 
+    @property
+    def _in_front(self) -> Document:
+        """The NC text in front, or else the program."""
+        return self.document if self.proof is None else self.proof.document
+
     def action_save(self) -> None:
         """Save the NC text in front, or else the program, under its name; ask for a name if it has none."""
         if not self.take_typed():
             # the prompt says what is wrong with the text
             self.notify("NOT SAVED: correct the field, then Ctrl+S.", timeout=4)
             return
-        document = self.document if self.proof is None else self.proof.document
-        if document.file.path is None:
+        if self._in_front.file.path is None:
             self.action_save_as()
         else:
             self._save(self.proof, None)
@@ -354,7 +359,7 @@ class FileActions(DerivationActions):
         """Ask for a name to save under."""
         from app.screens.entry_screen import SaveAsScreen
 
-        path = self.document.file.path if self.proof is None else self.proof.document.file.path
+        path = self._in_front.file.path
         name = str(path) if path is not None else f"{self.document.title or 'part'}.toml"
         self.push_screen(SaveAsScreen(name))
 
@@ -401,35 +406,14 @@ class FileActions(DerivationActions):
             return None
 
     @work(group="question", description="close")
-    async def close_nc(self, document: NcDocument) -> None:
+    async def close_nc(self, proof: ProofScreen) -> None:
         """Close an NC text; ask about unsaved changes."""
-        if await self.close_documents("LEAVE?", [document]) and self.proof is not None:
-            document = self.proof.document
+        if await self.close_documents("LEAVE?", [proof]) and self.proof is not None:
+            path = self.proof.document.file.path
             await self.run_action("app.back")
-            if len(self.screen_stack) == 1 and self.document.is_new and document.file.path is not None:
+            if len(self.screen_stack) == 1 and self.document.is_new and path is not None:
                 # cutcomp was started on an NC text: go to its folder, not to a form that was never used
-                path = document.file.path.absolute()
-                self.show_folder(path.parent, path)
-
-    async def _save_document(self, document: AnyDocument, path: Path | None) -> Saved[AnyDocument] | None:
-        """Save a document, asking questions as needed; return None if it was not saved."""
-        agreed = frozenset[str]()
-        if path is None and document.file.path is None:
-            name = await self.push_screen_wait(
-                Phrase("SAVE AS", [f"{questions.name_of(document)} needs a name. Enter saves it."])
-            )
-            if not name.strip():
-                return None
-            path = paths.path_of_text(name)
-        while isinstance(result := self.disk.do(partial(self.service.save, document, path, agreed)), QuestionText):
-            word = await self.ask(result)
-            if word == questions.GO_BACK:
-                return None
-            agreed |= {word}
-        if isinstance(result, Trouble):
-            self.say(result.text, Tone.ERROR)
-            return None
-        return result
+                self.show_folder(path.absolute().parent, path.absolute())
 
     @work(group="question")
     async def _save(self, proof: ProofScreen | None, path: Path | None) -> None:
@@ -441,13 +425,26 @@ class FileActions(DerivationActions):
 
     async def saved(self, proof: ProofScreen | None, path: Path | None) -> bool:
         """Save the NC text of a screen or else the program, asking questions as needed; return whether it was saved."""
-        if proof is not None and not proof.take_lines():
-            return False
         if proof is None:
             self.drop_empty_segment()
+        elif not proof.take_lines():
+            return False
         document: Any = self.document if proof is None else proof.document
-        result = await self._save_document(document, path)
-        if result is None:
+        if path is None and document.file.path is None:
+            name = await self.push_screen_wait(
+                Phrase("SAVE AS", [f"{questions.name_of(document)} needs a name. Enter saves it."])
+            )
+            if not name.strip():
+                return False
+            path = paths.path_of_text(name)
+        agreed = frozenset[str]()
+        while isinstance(result := self.disk.do(partial(self.service.save, document, path, agreed)), QuestionText):
+            word = await self.ask(result)
+            if word == questions.GO_BACK:
+                return False
+            agreed |= {word}
+        if isinstance(result, Trouble):
+            self.say(result.text, Tone.ERROR)
             return False
         if proof is not None:
             proof.saved(result.document)
@@ -467,7 +464,7 @@ class FileActions(DerivationActions):
 
     @work(group="question")
     async def _leave(self) -> None:
-        if await self.close_documents("QUIT?", self._all_open()):
+        if await self._close_everything("QUIT?"):
             self.exit(0)
 
 

@@ -257,7 +257,7 @@ class ProofScreen(BaseScreen):
     def action_close(self) -> None:
         """Leave the screen; ask about unsaved changes."""
         if self.take_lines():
-            self.host.close_nc(self.document)
+            self.host.close_nc(self)
 
     @on(Listing.SelectionChanged)
     def _moved(self) -> None:
