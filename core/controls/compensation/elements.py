@@ -6,6 +6,7 @@ end of the first element, E2 the one at the start of the second, each at right a
 
 from __future__ import annotations
 
+from itertools import pairwise
 from math import atan2, hypot, pi, tan, tau
 from typing import Final, NamedTuple
 
@@ -170,6 +171,17 @@ def sweep(start: Point, end: Point, center: Point, turn: int) -> float:
 def element_sweep(element: Element) -> float:
     """Return the angle an arc travels; a full turn for a full circle."""
     return sweep(element.start, element.end, element.center, element.turn) or tau
+
+
+def single_turns(element: Element, turns: int) -> list[Element]:
+    """Return an arc of several turns as full circles and the arc itself; its height changes evenly."""
+    part = (element.end_height - element.start_height) * tau / (element_sweep(element) + tau * (turns - 1))
+    heights = [element.start_height + part * turn for turn in range(turns)]
+    circles = [
+        element._replace(end=element.start, end_direction=element.start_direction, start_height=low, end_height=high)
+        for low, high in pairwise(heights)
+    ]
+    return [*circles, element._replace(start_height=heights[-1])]
 
 
 def _trim(programmed: Point, actual: Point, center: Point, turn: int) -> float:

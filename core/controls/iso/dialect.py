@@ -123,6 +123,8 @@ class Dialect:
     absolute_centers: bool = False
     """Under G90, I, J and K count from the origin, not from the arc's start."""
     arc_tolerance: ArcTolerance = USUAL_ARC_TOLERANCE
+    arc_turns: bool = False
+    """P is the number of turns of an arc."""
     syntax: Syntax = PLAIN_SYNTAX
     moves_alone: bool = False
     """G0 or G1 without an axis is a move of no length."""

@@ -6,10 +6,10 @@ It passes programmed elements to a `Control`, which compensates them and makes t
 from __future__ import annotations
 
 from dataclasses import replace
-from math import dist, hypot
+from math import dist, hypot, tau
 from typing import Final
 
-from core.controls.compensation.elements import arc_element, element_sweep, line_element
+from core.controls.compensation.elements import arc_element, element_sweep, line_element, single_turns
 from core.controls.compensation.recorder import Recorder
 from core.controls.control_run import SpindleChange, Spot
 from core.controls.control_tools import ToolTable, missing_tool
@@ -53,6 +53,9 @@ _LINE_CODES: Final = (0, 10)
 _MOTION_CODES: Final = frozenset((0, 10, 20, 30))
 _END_CODES: Final = frozenset((20, 300))
 _STOP_CODES: Final = frozenset((0, 10, 600))
+MAX_TURNS: Final = 1_000
+"""Most turns of an arc that are followed."""
+
 ARC_CENTER_LETTERS: Final = frozenset("IJKR")
 
 
@@ -375,11 +378,20 @@ class Machine(ModalState):
             stop = start
         center = self._center(block, start, stop, turn)
         self.position = end
+        turns = self._turns(block)
         element = arc_element(start, stop, center, turn, low, high, self.feed, block.line)
         if self.rate != PER_MINUTE:
-            length = hypot(element_sweep(element) * element.radius, high - low)
+            length = hypot((element_sweep(element) + tau * (turns - 1)) * element.radius, high - low)
             element = element._replace(feed=self.feed_over(block, length))
-        self.control.travel(element)
+        for each in single_turns(element, turns):
+            self.control.travel(each)
+
+    def _turns(self, block: Block) -> int:
+        """Return the number of turns of an arc, 1 for one that ends when it first reaches its end."""
+        if not self.dialect.arc_turns:
+            return 1
+        text = f"P, the number of turns of an arc, is a whole number from 1 to {MAX_TURNS}."
+        return whole_word(block, "P", self.log, "ARC", text, 1, MAX_TURNS, default=1.0)
 
     def _center(self, block: Block, start: Point, end: Point, turn: int) -> Point:
         """Return the center of an arc; an impossible arc stops the run."""

@@ -43,6 +43,7 @@ DIALECT: Final = Dialect(
     mode=None,
     syntax=Syntax(strict=True),
     arc_tolerance=ArcTolerance(inch=0.002828427, mm=0.02828427, most=100.0, interpreted=False),
+    arc_turns=True,
     moves_alone=True,
     feed_needed=True,
     table_needed=True,

@@ -357,3 +357,44 @@ def test_line_ends_of_cr_only_are_refused() -> None:
 def test_polar_coordinates_are_not_followed(word: str) -> None:
     (finding,) = findings_of(run_of(f"G21 G90\nG1 {word} F300\nM2\n", "linuxcnc"), "BEYOND")
     assert (finding.line, finding.column) == (2, 4)
+
+
+BORE_WITH_TURNS = (
+    "G21 G17 G90 G40\nF300\nG0 X0 Y0 Z1\nG41.1 D6 G1 X5 Y-5\nG3 X10 Y0 R5\n{}G3 X5 Y5 R5\nG40 G1 X0 Y0\n"
+    "G2 X4 Y0 I2 P2\nG93 G2 X8 Y0 I2 P3 F2\nM2\n"
+)
+
+
+def test_p_of_an_arc_is_its_number_of_turns() -> None:
+    """By hand: four turns from Z1 to Z-3 go down 1 mm each; a half turn and two turns on R2 are 10 pi, at F2 20 pi."""
+    run = run_of(BORE_WITH_TURNS.format("G3 I-10 Z-3 P4\n"), "linuxcnc")
+    single = run_of(BORE_WITH_TURNS.format("".join(f"G3 I-10 Z{z}\n" for z in (0, -1, -2, -3))), "linuxcnc")
+    assert run.stopped_at is None
+    assert run.moves.points == pytest.approx(single.moves.points)
+    assert run.moves.turns.tolist() == single.moves.turns.tolist()
+    assert run.moves.points[-2:].tolist() == [[4.0, 0.0, -3.0], [8.0, 0.0, -3.0]]
+    assert run.moves.turns[-6:].tolist() == [0, -1, -1, -1, -1, -1]
+    assert run.moves.feeds[-1] == pytest.approx(20.0 * np.pi)
+
+
+@needs_witness
+def test_turns_match_the_interpreter(tmp_path: Path) -> None:
+    text = BORE_WITH_TURNS.format("G3 I-10 Z-3 P4\n")
+    theirs = witness(text, tmp_path, {}, Unit.MM).moves
+    ours = list(printed(run_of(text, "linuxcnc")))
+    for move in theirs:
+        turns = max(abs(move.turn), 1)
+        assert {one.turn for one in ours[:turns]} == {move.turn // turns}
+        assert ours[turns - 1].end == pytest.approx(move.end, abs=move.digit or 1e-3)
+        del ours[:turns]
+    assert not ours
+
+
+@needs_witness
+@pytest.mark.parametrize("turns", ["0", "1.5", "-1", "2000"])
+def test_turns_that_are_no_whole_number_are_refused(turns: str, tmp_path: Path) -> None:
+    text = f"G21 F300\nG0 X0 Y0\nG2 X4 I2 P{turns}\nM2\n"
+    (alarm,) = findings_of(run_of(text, "linuxcnc"), "ARC")
+    assert (alarm.severity, alarm.line, alarm.column) == (Severity.ERROR, 3, 10)
+    # cutcomp alone has an upper limit
+    assert bool(witness(text, tmp_path, {}, Unit.MM).refusal) == (turns != "2000")
