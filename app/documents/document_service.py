@@ -14,7 +14,7 @@ from typing import Any, Final, Generic
 
 from app.documents import files, paths, questions, times, unsaved_work
 from app.documents.document import MAX_BYTES, AnyDocument, ContourDocument, Document, FileState, NcDocument
-from app.documents.journal import Head, Journal, Kind, beginning, continuing, records_between
+from app.documents.journal import Journal, Kind, beginning, continuing, records_between
 from app.documents.journal_file import JournalFile, Record, journal_path, new_path, reason_set_aside, set_aside
 from app.documents.lock import Lock, Owner, alive, held_by, myself, release, take, take_over, taken_by
 from app.documents.programs import empty_program, example, examples
@@ -139,35 +139,31 @@ class _OpenDocument:
 
         Raise OSError or StoreError if they cannot be written, neither beside the file nor in the user's folder.
         """
-        gone = self.journal is not None and self.journal.lost()
-        if gone and self.journal is not None:
-            self.journal.close()
-            self.journal = None
-        if self.journal is None:
+        journal, gone = self.journal, False
+        if journal is not None and journal.lost():
+            journal.close()
+            journal, gone = None, True
+        if journal is None:
             self.begin(now)
         else:
             try:
-                self._continue(self.journal, before, now)
+                records = None if self.rewrite else records_between(before.work, self.latest.work)
+                self.rewrite = records is None or journal.length > MAX_JOURNAL_GROWTH[self.latest.kind]
+                if records is None or self.rewrite:
+                    journal.replace(self.all_records(now))
+                else:
+                    journal.add(continuing(records, self.latest.place, now))
             except (OSError, StoreError):
                 if not self._begin_elsewhere(now):
                     raise
         self.rewrite = False
         return gone
 
-    def _continue(self, journal: JournalFile, before: Document, now: str) -> None:
-        document = self.latest
-        records = None if self.rewrite else records_between(before.work, document.work)
-        if records is not None and journal.length <= MAX_JOURNAL_GROWTH[document.kind]:
-            journal.add(continuing(records, document.place, now))
-            return
-        self.rewrite = True
-        journal.replace(self.all_records(now))
-
     def all_records(self, now: str) -> Iterator[Record]:
         """Return all work as the records of a new journal."""
         document, path = self.latest, self.latest.file.path
-        head = Head(self.me, None if path is None else str(path.absolute()), document.file.stamp)
-        return beginning(document.kind, head, document.work, document.place, now)
+        file = None if path is None else str(path.absolute())
+        return beginning(Journal(self.me, file, document.file.stamp, document.work, document.place, now))
 
     def begin(self, now: str) -> None:
         """Begin a journal with all work, beside the file if possible, else elsewhere; raise OSError if both fail."""
@@ -360,7 +356,7 @@ class DocumentService:
             case questions.DISCARD, Path() as path, left if left is not None:
                 return self._put_away(document, path, left, "as a backup in")
             case questions.NOT_MINE, Path() as path, Journal() as journal if unsaved_work.wants_answer(path):
-                return self._put_away(document, path, journal, f"for {printable(journal.head.owner.user)}:")
+                return self._put_away(document, path, journal, f"for {printable(journal.owner.user)}:")
             case _, Path() as path, left if left is not None and word != GO_BACK:
                 entry.answered.add(path)
                 return self._next_offer(document)
@@ -389,10 +385,7 @@ class DocumentService:
         self, document: Document, kept_copy: Path | None
     ) -> Iterator[tuple[Path, Journal | UnreadableWork]]:
         """Yield the unsaved work to ask about; a chosen kept copy comes first."""
-        if (
-            kept_copy is not None
-            and (copy := unsaved_work.read(kept_copy, document.kind) or unsaved_work.unreadable(kept_copy)) is not None
-        ):
+        if kept_copy is not None and (copy := unsaved_work.left_at(kept_copy, document.kind)) is not None:
             yield kept_copy, copy
         for path, left in unsaved_work.unsaved_work_on(document.file.path, document.kind, self.state):
             if path != kept_copy:
@@ -407,19 +400,19 @@ class DocumentService:
             if reason_set_aside(path) and not left.ours:
                 return _kept_for(left.user, left.time, path, today)
             return questions.unreadable_work(document, path, left, today)
-        living, mine = alive(left.head.owner), self._is_mine(path, left)
+        living, mine = alive(left.owner), self._is_mine(path, left)
         if document.holds(left) and not left.damaged and not chosen:
             if not living:
                 with suppress(OSError):
                     path.unlink()
             return None
         if not chosen and reason_set_aside(path) and not mine:
-            return _kept_for(left.head.owner.user, left.time, path, today)
+            return _kept_for(left.owner.user, left.time, path, today)
         copy = chosen and not unsaved_work.wants_answer(path)
         return questions.unsaved_work(document, left, mine=mine, me=self.me, living=living, chosen=copy, today=today)
 
     def _is_mine(self, path: Path, journal: Journal) -> bool:
-        return unsaved_work.of_user(journal.head.owner, path, self.state, self.me.user)
+        return unsaved_work.of_user(journal.owner, path, self.state, self.me.user)
 
     def _take_over(self, entry: _OpenDocument, document: AnyDocument, kept_copy: Path | None) -> Opened[AnyDocument]:
         """Read the file again and lock it for this process."""
@@ -444,7 +437,7 @@ class DocumentService:
     ) -> Opened[AnyDocument]:
         """Restore the work with its undo history, and begin its journal anew with all of it."""
         now = document.file
-        stamp = journal.head.stamp if now.stamp is not None else None
+        stamp = journal.stamp if now.stamp is not None else None
         work = document.restored(journal)
         work = entry.remember(replace(work, file=replace(now, stamp=stamp)))
         try:
@@ -453,7 +446,7 @@ class DocumentService:
             entry.journal = None
             return Opened(work, Notice(f"Restored. Not on disk: {_reason(error)}", warning=True))
         copy = f" {whole_name(aside)} holds a copy: Ctrl+O lists it." if aside is not None else ""
-        whose = self._whose(journal.head.owner)
+        whose = self._whose(journal.owner)
         return Opened(work, Notice(f"{whose} Ctrl+Z undoes it step by step, Ctrl+S saves it.{copy}"))
 
     def _whose(self, owner: Owner) -> str:
@@ -464,7 +457,7 @@ class DocumentService:
 
     def _journal_of_restored(self, entry: _OpenDocument, work: Document, path: Path, journal: Journal) -> Path | None:
         """Begin a journal with the restored work; return the old journal's path unless it is replaced or gone."""
-        mine, living = self._is_mine(path, journal), alive(journal.head.owner)
+        mine, living = self._is_mine(path, journal), alive(journal.owner)
         replaced = mine and not living and unsaved_work.wants_answer(path) and not journal.damaged
         place, aside = unsaved_work.journal_place(work.file.path, self.me, self.state), None
         if replaced and path == place:
@@ -488,7 +481,7 @@ class DocumentService:
         try:
             if not self._is_mine(path, journal):
                 return set_aside(path, "kept")
-            if alive(journal.head.owner):
+            if alive(journal.owner):
                 return set_aside(path, f"theirs-{times.for_file_name(self.clock())}-at-{path.stat().st_size}")
             return set_aside(path, "discarded")
         except PermissionError:
@@ -501,7 +494,7 @@ class DocumentService:
         """Return the document without the work, which is kept `whose`: as a backup, or for its author."""
         aside = path
         try:
-            if isinstance(left, Journal) and (alive(left.head.owner) or not self._is_mine(path, left)):
+            if isinstance(left, Journal) and (alive(left.owner) or not self._is_mine(path, left)):
                 aside = self._move_aside(path, left)
             else:
                 aside = set_aside(path, "discarded")

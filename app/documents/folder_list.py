@@ -104,7 +104,7 @@ def _without_file(path: Path) -> Facts:
     except (OSError, ValueError):
         left = []
     journals = [journal for journal in left if isinstance(journal, Journal)]
-    if any(not alive(journal.head.owner) for journal in journals):
+    if any(not alive(journal.owner) for journal in journals):
         return _not_saved(gone)
     if journals:
         return replace(gone, outcome=Outcome.OPEN, trouble="This program is open and has not been saved yet.")

@@ -54,47 +54,41 @@ class Kind(StrEnum):
     NC = "NC text"
 
 
-@dataclass(frozen=True, slots=True)
-class Head:
-    """Whose work it is, on which file (None without a name), and the stamp of that file when it was read."""
-
-    owner: Owner
-    file: str | None = None
-    stamp: Stamp | None = None
-
-
 @dataclass(frozen=True, eq=False, slots=True)
 class Journal:
-    """The content of a journal; `time` is that of the last edit, in ISO format.
+    """The content of a journal: whose work it is, on which file (None without a name), and the work itself.
 
-    `damaged`: more than a torn last line could not be read.
+    `stamp` is that of the file when it was read, `time` that of the last edit, in ISO format.  `damaged`: more than a
+    torn last line could not be read.
     """
 
-    kind: Kind
-    head: Head
+    owner: Owner
+    file: str | None
+    stamp: Stamp | None
     work: Work
     place: Place
     time: str
     damaged: bool = False
 
     @property
-    def edits(self) -> int:
-        """The number of edits that can be undone."""
-        return len(self.work.past)
+    def kind(self) -> Kind:
+        """The kind of the document."""
+        return Kind.CONTOUR if isinstance(self.work, History) else Kind.NC
 
 
 # ---- writing
 
 
-def beginning(kind: Kind, head: Head, work: Work, place: Place, time: str) -> Iterator[Record]:
-    """Yield the records of a new journal: what the last edits of this work began with, and these edits."""
-    first = work
-    for _ in work.past[-MAX_UNDO_EDITS:]:
+def beginning(journal: Journal) -> Iterator[Record]:
+    """Yield the records of a new journal: what the last edits of its work began with, and these edits."""
+    first = journal.work
+    for _ in journal.work.past[-MAX_UNDO_EDITS:]:
         first = first.undo()
-    stamp = None if head.stamp is None else [head.stamp.size, head.stamp.changed, head.stamp.digest]
-    whose = {"owner": asdict(head.owner), "file": head.file, "stamp": stamp}
-    yield {"journal": JOURNAL_FORMAT, "kind": kind, **whose, "base": _base(first), "at": place, "time": time}
-    yield from continuing([*_redone(first), *({"undo": 1} for _ in work.future)], place, time)
+    stamp = None if journal.stamp is None else [journal.stamp.size, journal.stamp.changed, journal.stamp.digest]
+    whose = {"owner": asdict(journal.owner), "file": journal.file, "stamp": stamp}
+    end = {"at": journal.place, "time": journal.time}
+    yield {"journal": JOURNAL_FORMAT, "kind": journal.kind, **whose, "base": _base(first), **end}
+    yield from continuing([*_redone(first), *({"undo": 1} for _ in journal.work.future)], journal.place, journal.time)
 
 
 def _redone(work: Work) -> Iterator[Record]:
@@ -178,7 +172,7 @@ def read_journal(data: bytes) -> Journal | None:
     """Return what a journal holds; None if not even its first line can be read."""
     journal: Journal | None = None
     length = 0
-    for line, after, _ in valid_lines(data):
+    for line, after in valid_lines(data):
         try:
             record = json.loads(line)
             if not isinstance(record, dict):
@@ -192,7 +186,7 @@ def read_journal(data: bytes) -> Journal | None:
 
 def owner_in_another_version(data: bytes) -> Owner | None:
     """Return who began a journal in the format of another version of this program; None for any other journal."""
-    line = next((line for line, _, _ in valid_lines(data[: data.find(b"\n") + 1])), b"null")
+    line = next((line for line, _ in valid_lines(data[: data.find(b"\n") + 1])), b"null")
     try:
         match json.loads(line):
             case {"owner": owner, **rest} if rest.get("journal") != JOURNAL_FORMAT:
@@ -213,15 +207,18 @@ def _begun(record: Record) -> Journal:
             work = _unpacked(base)
         case _:
             raise DamagedError
-    return Journal(Kind(record["kind"]), _head_of(record), work, _place_of(record), _text_of(record.get("time")))
+    match record:
+        case {"owner": owner, "file": None | str() as file, "stamp": stamp}:
+            place, time = _place_of(record), _text_of(record.get("time"))
+            return Journal(owner_of(owner), _path_of(file), _stamp_of(stamp), work, place, time)
+        case _:
+            raise DamagedError
 
 
 def _continued(journal: Journal, record: Record) -> Journal:
     """Return what a journal holds up to another line."""
-    head, work = journal.head, journal.work
+    work = journal.work
     match record:
-        case {"owner": _}:
-            head = _head_of(record)
         case {"do": str(label), "delta": values}:
             work = _done(work, label, values)
         case {"undo": 1} if work.past:
@@ -230,8 +227,7 @@ def _continued(journal: Journal, record: Record) -> Journal:
             work = work.redo()
         case _:
             raise DamagedError
-    place, time = _place_of(record), _text_of(record.get("time"))
-    return replace(journal, head=head, work=work, place=place, time=time)
+    return replace(journal, work=work, place=_place_of(record), time=_text_of(record.get("time")))
 
 
 def _done(work: Work, label: str, values: object) -> Work:
@@ -294,14 +290,12 @@ def _lines_of(text: NcText, values: list[object]) -> tuple[str, ...]:
     return lines
 
 
-def _head_of(record: Record) -> Head:
-    match record:
-        case {"owner": owner, "file": None | str() as file, "stamp": None}:
-            return Head(owner_of(owner), _path_of(file))
-        case {"owner": owner, "file": None | str() as file, "stamp": [size, time, str(digest)]}:
-            if not _DIGEST.fullmatch(digest):
-                raise DamagedError
-            return Head(owner_of(owner), _path_of(file), Stamp(_integer_of(size), _integer_of(time), digest))
+def _stamp_of(values: object) -> Stamp | None:
+    match values:
+        case None:
+            return None
+        case [int(size), int(time), str(digest)] if _DIGEST.fullmatch(digest):
+            return Stamp(size, time, digest)
         case _:
             raise DamagedError
 
@@ -326,12 +320,5 @@ def _place_of(record: Record) -> Place:
 def _text_of(value: object) -> str:
     """Return a text of one line without control characters; raise DamagedError for any other value."""
     if isinstance(value, str) and value.isprintable():
-        return value
-    raise DamagedError
-
-
-def _integer_of(value: object) -> int:
-    """Return an integer that is not a bool; raise DamagedError for any other value."""
-    if isinstance(value, int) and not isinstance(value, bool):
         return value
     raise DamagedError

@@ -149,15 +149,15 @@ def lines(records: Iterable[Record], total: int = 0) -> tuple[bytes, int]:
     return b"".join(written), total
 
 
-def valid_lines(data: bytes) -> Iterator[tuple[bytes, int, int]]:
-    """Yield the JSON of each line before the first invalid one, with the length and checksum up to its end."""
+def valid_lines(data: bytes) -> Iterator[tuple[bytes, int]]:
+    """Yield the JSON of each line before the first invalid one, with the length up to its end."""
     length, total = 0, 0
     for line in data.splitlines(keepends=True):
         total = crc32(line[9:-1], total)
         if not line.endswith(b"\n") or line[:9] != b"%08x " % total:
             return
         length += len(line)
-        yield line[9:], length, total
+        yield line[9:], length
 
 
 def journal_path(path: Path) -> Path:

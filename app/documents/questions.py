@@ -208,11 +208,11 @@ def unsaved_work(
     document: Document, journal: Journal, *, mine: bool, me: Owner, living: bool, chosen: bool, today: str
 ) -> QuestionText:
     """Ask whether to restore unsaved work; `chosen`: the operator picked it in the list of kept copies."""
-    owner, path = journal.head.owner, document.file.path
+    owner, path = journal.owner, document.file.path
     name = "No name" if path is None else printable(path.name)
     by = "" if (owner.user, owner.host) == (me.user, me.host) else f" by {person(owner)}"
-    edits = f"{journal.edits} edit{'' if journal.edits == 1 else 's'}"
-    lines = [f"{name}{by}, {times.in_words(journal.time, today)}, {edits}."]
+    count = len(journal.work.past)
+    lines = [f"{name}{by}, {times.in_words(journal.time, today)}, {count} edit{'' if count == 1 else 's'}."]
     if path is not None and document.file.stamp is None and os.path.lexists(path):
         lines.append(f"{printable(path.name)} itself cannot be read; it stays as it is.")
     elif path is not None and document.kind is Kind.NC and document.file.stamp is None:
@@ -235,7 +235,7 @@ def unsaved_work(
 
 
 def _written_since(document: Document, journal: Journal) -> bool:
-    now, then = document.file.stamp, journal.head.stamp
+    now, then = document.file.stamp, journal.stamp
     return document.file.path is not None and now is not None and (then is None or not now.same_content(then))
 
 

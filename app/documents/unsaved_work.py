@@ -102,21 +102,18 @@ def unsaved_work_on(file: Path | None, kind: Kind, state: Path) -> Iterator[tupl
     """
     unnamed = f"unnamed-*{JOURNAL_SUFFIX}"
     for path in newest_first(state.glob(unnamed)) if file is None else journals_of(file, state):
-        left = read(path, kind) or unreadable(path)
-        if left is None:
-            continue
-        owner = left.owner if isinstance(left, UnreadableWork) else left.head.owner
-        living = owner is not None and alive(owner)
-        if not (living and (file is None or reason_set_aside(path))):
+        left = left_at(path, kind)
+        living = left is not None and left.owner is not None and alive(left.owner)
+        if left is not None and not (living and (file is None or reason_set_aside(path))):
             yield path, left
 
 
 def work_of_dead_processes(file: Path, state: Path, user: str) -> Iterator[Journal]:
     """Yield the journals on a contour program that this user is asked about, left by processes that died."""
     for path, left in unsaved_work_on(file, Kind.CONTOUR, state):
-        if isinstance(left, UnreadableWork) or alive(left.head.owner):
+        if isinstance(left, UnreadableWork) or alive(left.owner):
             continue
-        if not reason_set_aside(path) or of_user(left.head.owner, path, state, user):
+        if not reason_set_aside(path) or of_user(left.owner, path, state, user):
             yield left
 
 
@@ -173,32 +170,31 @@ def _holds_something(path: Path) -> bool:
 
 def read(path: Path, kind: Kind | None = None) -> Journal | None:
     """Return what a journal holds; None if there is none, it is unreadable, or it is not of this kind."""
-    try:
-        data, _ = read_file(path, MAX_JOURNAL_BYTES)
-    except OSError:
-        return None
-    journal = read_journal(data)
-    return journal if journal is not None and kind in (None, journal.kind) else None
+    left = left_at(path, kind)
+    return left if isinstance(left, Journal) else None
 
 
-def unreadable(path: Path) -> UnreadableWork | None:
-    """Describe a journal that cannot be read; return None if there is none or it is empty."""
-    hidden, what, owner = False, "", None
+def left_at(path: Path, kind: Kind | None) -> Journal | UnreadableWork | None:
+    """Return the work in a journal of this kind, or of any; None if there is none or it is empty."""
     try:
         status = path.stat()
     except OSError:
         return None
     if stat.S_ISREG(status.st_mode) and not status.st_size:
         return None
+    data, refused = b"", None
     try:
-        owner = owner_in_another_version(read_file(path, MAX_JOURNAL_BYTES)[0])
+        data = read_file(path, MAX_JOURNAL_BYTES)[0]
     except FileNotFoundError:
         return None
     except OSError as error:
-        hidden = isinstance(error, PermissionError)
-        what = error.what if isinstance(error, NotAFileError) else ""
+        refused = error
+    journal = read_journal(data)
+    if journal is not None and kind in (None, journal.kind):
+        return journal
+    hidden, what = isinstance(refused, PermissionError), refused.what if isinstance(refused, NotAFileError) else ""
     user, time = login(status.st_uid), times.of_file(status.st_mtime_ns)
-    return UnreadableWork(user, time, hidden, status.st_uid == os.getuid(), what, owner)
+    return UnreadableWork(user, time, hidden, status.st_uid == os.getuid(), what, owner_in_another_version(data))
 
 
 def login(number: int) -> str:
@@ -244,7 +240,7 @@ def file_of_copy(path: Path, folder: Path) -> Path | None:
     It is beside the copy, even if the folder has moved; if a long name was cut, the journal holds the full one.
     """
     journal = read(path)
-    name = None if journal is None else journal.head.file
+    name = None if journal is None else journal.file
     if not path.name.startswith("."):
         if name is not None:
             return Path(name)

@@ -15,7 +15,6 @@ from hypothesis import strategies as st
 from app.documents.files import Stamp
 from app.documents.journal import (
     MAX_UNDO_EDITS,
-    Head,
     Journal,
     Kind,
     beginning,
@@ -36,7 +35,7 @@ from tests.properties import exercised, must_exercise
 
 PART = program(line(x_end=1.0), line(y_end=1.0), line(x_end=0.0))
 OWNER = Owner("ann", "mill-3", 4711, "boot:12", "2025-03-04T06:00:00+01:00")
-HEAD = Head(OWNER, "/parts/pocket.toml", Stamp(120, 5, "0123456789abcdef"))
+HEAD = (OWNER, "/parts/pocket.toml", Stamp(120, 5, "0123456789abcdef"))
 PLACE = (1, 2, "y_end")
 TIME = "2025-03-04T06:05:00+01:00"
 
@@ -55,7 +54,7 @@ def typed(number: float) -> EditStep:
 
 
 def whole(history: History) -> bytes:
-    return lines(beginning(Kind.CONTOUR, HEAD, history, PLACE, TIME))[0]
+    return lines(beginning(Journal(*HEAD, history, PLACE, TIME)))[0]
 
 
 def further(data: bytes, old: History, new: History) -> bytes | None:
@@ -102,9 +101,9 @@ def test_work_place_time_and_head_are_read_back() -> None:
     data, history = journal(*STEPS)
     result = read(data)
     assert result.work == history
-    assert (result.kind, result.head, result.place, result.time) == (Kind.CONTOUR, HEAD, PLACE, TIME)
+    assert (result.kind, result.place, result.time) == (Kind.CONTOUR, PLACE, TIME)
+    assert (result.owner, result.file, result.stamp) == HEAD
     assert not result.damaged
-    assert result.edits == history.undo_count
 
 
 steps = st.lists(st.one_of(st.floats(-9, 9).map(typed), st.just(History.undo), st.just(History.redo)), max_size=12)
@@ -212,14 +211,6 @@ def test_random_bytes_are_no_journal(data: bytes) -> None:
     assert read_journal(data) is None
 
 
-def test_a_line_with_an_owner_hands_the_work_over() -> None:
-    data, history = journal(typed(2.0))
-    later: Record = {"owner": {"user": "bob", "host": "x", "pid": 1, "started": "", "since": ""}, "file": None}
-    more, _ = lines([{**later, "stamp": None, "at": PLACE, "time": TIME}], _sum(data))
-    assert read(data + more).head == Head(Owner("bob", "x", 1, "", ""))
-    assert read(data + more).work == history
-
-
 # ---- NC texts
 
 WORK = st.lists(st.tuples(st.sampled_from("cidur"), st.integers(0, 9), st.text("GX1.\t", max_size=4)), max_size=25)
@@ -246,13 +237,13 @@ def nc_edited(text: NcText, kind: str, row: int, typed: str) -> NcText:
 @given(WORK, st.sampled_from([b"", b"A\nB\nC", b"A\r\nB\r\n", b"\xff\xfeA\x00\n\x00", b"\xef\xbb\xbfA\n"]))
 def test_any_edits_of_an_nc_text_come_back(work: list[tuple[str, int, str]], content: bytes) -> None:
     text = NcText.read(content)
-    data = lines(beginning(Kind.NC, HEAD, text, (0,), TIME))[0]
+    data = lines(beginning(Journal(*HEAD, text, (0,), TIME)))[0]
     for kind, row, typed_text in work:
         before, text = text, nc_edited(text, kind, row, typed_text)
         records = records_between(before, text)
         assert records is not None
         data += lines(continuing(records, (row,), TIME), _sum(data))[0]
-    for written in (data, lines(beginning(Kind.NC, HEAD, text, (0,), TIME))[0]):
+    for written in (data, lines(beginning(Journal(*HEAD, text, (0,), TIME)))[0]):
         found = read(written)
         assert not found.damaged
         assert isinstance(found.work, NcText)
@@ -270,7 +261,7 @@ def signed(record: object, total: int = 0) -> bytes:
 
 
 FIRST = json.loads(whole(History(PART))[9:])
-NC_FIRST = json.loads(lines(beginning(Kind.NC, HEAD, NcText.read(b"A\n"), (0,), TIME))[0][9:])
+NC_FIRST = json.loads(lines(beginning(Journal(*HEAD, NcText.read(b"A\n"), (0,), TIME)))[0][9:])
 TEXT = NC_FIRST["base"][1]
 
 
@@ -311,7 +302,8 @@ def test_a_place_of_one_number_belongs_to_an_nc_text_and_is_ignored_in_a_program
     result = read_journal(signed({**FIRST, "at": [1]}))
     assert result is not None
     assert isinstance(result.work, History)
-    assert (result.kind, result.head, result.damaged) == (Kind.CONTOUR, HEAD, False)
+    assert (result.kind, result.damaged) == (Kind.CONTOUR, False)
+    assert (result.owner, result.file, result.stamp) == HEAD
     assert result.work.program == PART
 
 
@@ -339,7 +331,7 @@ def test_a_first_line_of_an_nc_text_with_wrong_content_is_no_journal(wrong: dict
         {"undo": 1},
         {"redo": 1},
         {"undo": 2},
-        {"owner": {}},
+        {"owner": FIRST["owner"], "file": None, "stamp": None},
         {"jump": 1},
         [],
         None,

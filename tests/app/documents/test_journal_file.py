@@ -10,7 +10,7 @@ from pathlib import Path
 
 import pytest
 
-from app.documents.journal import Kind, beginning, continuing
+from app.documents.journal import Journal, beginning, continuing
 from app.documents.journal import records_between as between
 from app.documents.journal_file import (
     JournalFile,
@@ -28,7 +28,7 @@ from tests.app.documents.test_journal import HEAD, PART, PLACE, STEPS, TIME, Edi
 
 def records_of(history: History) -> Iterator[Record]:
     """The records of a whole history."""
-    return beginning(Kind.CONTOUR, HEAD, history, PLACE, TIME)
+    return beginning(Journal(*HEAD, history, PLACE, TIME))
 
 
 def records_between(old: History, new: History) -> list[Record]:
