@@ -449,7 +449,7 @@ class FileActions(DerivationActions):
         if proof is not None:
             proof.saved(result.document)
         else:
-            self.document = self.document.after_saving(result.document)
+            self.document = self.document.saved(result.document.file, result.document)
             self.switch_session(session_of(self.document, self.session))
             self.keep_settings(self.settings.using(self.document.file.path))
             self.clear_notice()

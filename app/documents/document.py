@@ -89,13 +89,9 @@ class ContourDocument:
         """Return the content of the program's file."""
         return dumps(self.program).encode()
 
-    def saved(self, file: FileState) -> Self:
-        """Return the document after its file was written."""
-        return replace(self, file=file, saved_program=self.program)
-
-    def after_saving(self, saved: Self) -> Self:
-        """Return this newer document after an earlier state of it, `saved`, was written."""
-        return replace(self, file=saved.file, saved_program=saved.saved_program)
+    def saved(self, file: FileState, written: Self) -> Self:
+        """Return the document after it, or an earlier state of it, was written to a file."""
+        return replace(self, file=file, saved_program=written.program)
 
     def restored(self, journal: Journal) -> Self:
         """Return the work of a journal of this kind with its cursor."""
@@ -149,14 +145,9 @@ class NcDocument:
         """Return the file's content; unedited lines are the same byte for byte."""
         return self.text.data
 
-    def saved(self, file: FileState) -> Self:
-        """Return the document after its file was written."""
-        return replace(self, file=file, text=self.text.written(self.text.data))
-
-    def after_saving(self, saved: Self) -> Self:
-        """Return this newer document after an earlier state of it, `saved`, was written."""
-        text = replace(self.text, origin=saved.text.origin, saved=saved.text.saved)
-        return replace(self, file=saved.file, text=text)
+    def saved(self, file: FileState, written: Self) -> Self:
+        """Return the document after it, or an earlier state of it, was written to a file."""
+        return replace(self, file=file, text=self.text.saved_as(written.text))
 
     def restored(self, journal: Journal) -> Self:
         """Return the work of a journal; if undoing it leads back to this text, nothing is unsaved there."""

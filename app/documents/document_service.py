@@ -9,6 +9,7 @@ import os
 from collections.abc import Callable, Iterator
 from contextlib import suppress
 from dataclasses import dataclass, field, replace
+from itertools import chain
 from pathlib import Path
 from typing import Any, Final, Generic
 
@@ -371,8 +372,11 @@ class DocumentService:
         Work that was answered or is kept for somebody else raises no question; a notice mentions the latter.
         """
         for_others: list[str] = []
-        for path, left in self._unsaved_work(document, kept_copy):
-            if path in self._entry(document).answered:
+        entry = self._entry(document)
+        copy = None if kept_copy is None else unsaved_work.left_at(kept_copy, document.kind)
+        chosen = [(kept_copy, copy)] if kept_copy is not None and copy is not None else []
+        for path, left in chain(chosen, unsaved_work.unsaved_work_on(document.file.path, document.kind, self.state)):
+            if path in entry.answered or (path == kept_copy and left is not copy):
                 continue
             ask = self._question(document, path, left, chosen=path == kept_copy)
             if isinstance(ask, str):
@@ -380,16 +384,6 @@ class DocumentService:
             elif ask is not None:
                 return Opened(document, notice, Offer(ask, path, left))
         return Opened(document, notice or (Notice(" ".join(for_others), warning=True) if for_others else None))
-
-    def _unsaved_work(
-        self, document: Document, kept_copy: Path | None
-    ) -> Iterator[tuple[Path, Journal | UnreadableWork]]:
-        """Yield the unsaved work to ask about; a chosen kept copy comes first."""
-        if kept_copy is not None and (copy := unsaved_work.left_at(kept_copy, document.kind)) is not None:
-            yield kept_copy, copy
-        for path, left in unsaved_work.unsaved_work_on(document.file.path, document.kind, self.state):
-            if path != kept_copy:
-                yield path, left
 
     def _question(
         self, document: Document, path: Path, left: Journal | UnreadableWork, *, chosen: bool
@@ -457,33 +451,32 @@ class DocumentService:
 
     def _journal_of_restored(self, entry: _OpenDocument, work: Document, path: Path, journal: Journal) -> Path | None:
         """Begin a journal with the restored work; return the old journal's path unless it is replaced or gone."""
-        mine, living = self._is_mine(path, journal), alive(journal.owner)
-        replaced = mine and not living and unsaved_work.wants_answer(path) and not journal.damaged
-        place, aside = unsaved_work.journal_place(work.file.path, self.me, self.state), None
-        if replaced and path == place:
+        wanted = unsaved_work.wants_answer(path)
+        replaced = wanted and not journal.damaged and self._is_mine(path, journal) and not alive(journal.owner)
+        if replaced and path == unsaved_work.journal_place(work.file.path, self.me, self.state):
             entry.journal = unsaved_work.new_journal(path, work.file.path)
             entry.journal.replace(entry.all_records(self.clock()))
             return None
-        if journal.damaged and mine and not living and unsaved_work.wants_answer(path):
-            aside = set_aside(path, "damaged") if path.exists() else None
-        elif not replaced and path.exists():
-            aside = self._move_aside(path, journal)
+        aside = None
+        if not replaced and path.exists():
+            aside = self._move_aside(path, journal, "damaged") if wanted else path
         entry.begin(self.clock())
         if replaced:
             # all of it is in the new journal
             path.unlink(missing_ok=True)
         return aside
 
-    def _move_aside(self, path: Path, journal: Journal) -> Path:
-        """Set a journal aside: as "kept" or "theirs" if its author can be asked about it later, else as "discarded"."""
+    def _move_aside(self, path: Path, left: Journal | UnreadableWork, why: str) -> Path:
+        """Set unsaved work aside, as `why` if it is ours and complete; else its author can be asked about it later."""
+        mine = not isinstance(left, Journal) or self._is_mine(path, left)
+        living = isinstance(left, Journal) and alive(left.owner)
+        if mine and not living:
+            return set_aside(path, why)
         if reason_set_aside(path):
             return path
         try:
-            if not self._is_mine(path, journal):
-                return set_aside(path, "kept")
-            if alive(journal.owner):
-                return set_aside(path, f"theirs-{times.for_file_name(self.clock())}-at-{path.stat().st_size}")
-            return set_aside(path, "discarded")
+            length = path.stat().st_size
+            return set_aside(path, f"theirs-{times.for_file_name(self.clock())}-at-{length}" if mine else "kept")
         except PermissionError:
             # the folder forbids renaming: this journal stays, and the next one goes elsewhere
             return path
@@ -494,10 +487,7 @@ class DocumentService:
         """Return the document without the work, which is kept `whose`: as a backup, or for its author."""
         aside = path
         try:
-            if isinstance(left, Journal) and (alive(left.owner) or not self._is_mine(path, left)):
-                aside = self._move_aside(path, left)
-            else:
-                aside = set_aside(path, "discarded")
+            aside = self._move_aside(path, left, "discarded")
             notice = Notice(f"Kept {whose} {whole_name(aside)}; Ctrl+O lists it.")
         except FileNotFoundError:
             notice = Notice("It was saved or discarded meanwhile. Ctrl+O opens the file as it is now.", warning=True)
@@ -598,10 +588,12 @@ class DocumentService:
             return questions.taken_over(path, owner, copy)
         theirs = None
         if questions.YOURS in agreed:
+            theirs = free_copy_name(path, "theirs", today)
             try:
-                theirs = put_theirs_aside(path, MAX_BYTES[document.kind], today)
-            except StoreError as error:
-                return Trouble(error.text)
+                # written in one step: no half copy may pass for the other version
+                files.write_data(theirs, files.read_file(path, MAX_BYTES[document.kind])[0])
+            except (OSError, StoreError) as error:
+                return Trouble(f"Nothing is saved: the other version cannot be copied, {_reason(error)}")
         elif (stop := self._ask_if_changed(document, path, copy, today)) is not None:
             return stop
         return self._write_file(entry, document, path, theirs, link_agreed=questions.WRITE_THERE in agreed)
@@ -635,7 +627,7 @@ class DocumentService:
         before = document.file
         agreed = (before.link_agreed and path == before.path) or (link_agreed and _leads_elsewhere(path))
         state = replace(before, path=path, stamp=files.stamp_of_data(data), link_agreed=agreed)
-        saved = entry.remember(document.saved(state))
+        saved = entry.remember(document.saved(state, document))
         entry.drop_journal()
         entry.rewrite = entry.failing = entry.away = False
         if path != before.path:
@@ -676,17 +668,6 @@ def free_copy_name(path: Path, whose: str, today: str) -> Path:
         number += 1
         free = path.with_name(f"{name}-{number}{path.suffix}")
     return free
-
-
-def put_theirs_aside(path: Path, most: int, today: str) -> Path:
-    """Copy a file's content to a free name and return that name; raise StoreError if the copy fails."""
-    aside = free_copy_name(path, "theirs", today)
-    try:
-        # written in one step: no half copy may pass for the other version
-        files.write_data(aside, files.read_file(path, most)[0])
-    except (OSError, StoreError) as error:
-        raise StoreError(f"Nothing is saved: the other version cannot be copied, {_reason(error)}") from error
-    return aside
 
 
 def _real_path(path: Path | None) -> str | None:

@@ -150,9 +150,9 @@ class NcText:
                 return replace(self, saved=change)
         return self
 
-    def written(self, data: bytes) -> NcText:
-        """Return the text after the file was written with this content."""
-        return replace(self, origin=data, saved=self.past[-1] if self.past else None)
+    def saved_as(self, written: NcText) -> NcText:
+        """Return the text after it, or an earlier state of it, was written to the file."""
+        return replace(self, origin=written.data, saved=written.past[-1] if written.past else None)
 
 
 def _with_lines(listing: NcText, change: Splice[str]) -> NcText:

@@ -223,7 +223,7 @@ class ProofScreen(BaseScreen):
 
     def saved(self, document: NcDocument) -> None:
         """Note that the text was saved."""
-        self.document = self.document.after_saving(document)
+        self.document = self.document.saved(document.file, document)
         self._show_titles()
 
     def action_edit(self) -> None:

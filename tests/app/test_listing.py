@@ -99,7 +99,7 @@ def test_undo_and_redo_go_through_every_state() -> None:
 
 def test_undo_and_redo_compare_with_what_was_written() -> None:
     typed = changed(NcText.read(b"A\n"), 0, "B")
-    saved = typed.written(typed.data)
+    saved = typed.saved_as(typed)
     assert not saved.unsaved
     assert saved.undo().unsaved
     assert not saved.undo().redo().unsaved
