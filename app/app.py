@@ -98,7 +98,6 @@ class CutcompApp(TransformActions):
         self._opened, self._home, self._check_request = opened, home, check_request
         self.drawing: Path | None = None
         self.settings_file = settings_file or SettingsFile()
-        self.settings = self.settings_file.settings
         document = None if opened is None else opened.document
         # an NC text opens over a new program
         self.document = document if isinstance(document, ContourDocument) else self.service.new().document

@@ -47,7 +47,6 @@ class FileActions(DerivationActions):
 
     service: DocumentService
     document: ContourDocument
-    settings: Settings
     settings_file: SettingsFile
 
     def __init__(self, *, ansi_color: bool | None = None) -> None:
@@ -154,9 +153,13 @@ class FileActions(DerivationActions):
             return ""
         return f"{questions.held_sentence(holder, self.service.clock())} SAVE AS (Ctrl+K) makes a copy of your own."
 
+    @property
+    def settings(self) -> Settings:
+        """The user's settings."""
+        return self.settings_file.settings
+
     def keep_settings(self, settings: Settings) -> None:
         """Use these settings from now on and save them."""
-        self.settings = settings
         if text := self.settings_file.keep(settings):
             self.say(text, Tone.WARNING)
 

@@ -174,7 +174,8 @@ def new_path(path: Path) -> Path:
 def journals_set_aside(path: Path) -> Iterator[Path]:
     """Yield the journals that were set aside from a place, newest first; the folder is read at the first one."""
     prefix, new = f"{original_path(path).name}.", new_path(original_path(path))
-    yield from newest_first(each for each in entries(path.parent) if each.name.startswith(prefix) and each != new)
+    aside = (each for each in entries(path.parent) if each.name.startswith(prefix) and each != new)
+    yield from (each for _, each in newest_first(aside))
 
 
 def entries(folder: Path) -> list[Path]:
@@ -184,13 +185,13 @@ def entries(folder: Path) -> list[Path]:
     return []
 
 
-def newest_first(paths: Iterable[Path]) -> list[Path]:
-    """Return those of the paths that exist, the one that has changed last first."""
+def newest_first(paths: Iterable[Path]) -> list[tuple[int, Path]]:
+    """Return those of the paths that exist with their times, in nanoseconds, the one that has changed last first."""
     dated = list[tuple[int, Path]]()
     for path in paths:
         with suppress(OSError):
             dated.append((path.stat().st_mtime_ns, path))
-    return [path for _, path in sorted(dated, reverse=True)]
+    return sorted(dated, reverse=True)
 
 
 def original_path(path: Path) -> Path:

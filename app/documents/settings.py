@@ -7,7 +7,7 @@ from __future__ import annotations
 
 import json
 import tomllib
-from dataclasses import dataclass, field, replace
+from dataclasses import dataclass, field, fields, replace
 from pathlib import Path
 from typing import Final
 
@@ -66,46 +66,39 @@ def settings_file() -> Path:
 def parsed(text: str) -> Settings:
     """Return the settings in a file's text, without unusable values; raise ValueError if it is not TOML."""
     held = tomllib.loads(text)
-    tools = held.get("tools")
+    tools = held["tools"].items() if isinstance(held.get("tools"), dict) else ()
+    usable = tuple((name, diameters) for name, diameters in tools if _is_path(name) and isinstance(diameters, str))
     # older files call the characters `mode`
     characters = held.get("characters", held.get("mode"))
     return Settings(
         characters if characters in CHARACTER_SETS else "",
         held["theme"] if held.get("theme") in THEMES else "",
-        held["folder"] if _usable(held.get("folder")) else "",
+        held["folder"] if _is_path(held.get("folder")) else "",
         held.get("mouse") is True,
         held["control"] if isinstance(held.get("control"), str) else "",
-        tuple(filter(_usable_tools, tools.items()))[:MAX_FILES_WITH_TOOLS] if isinstance(tools, dict) else (),
+        usable[:MAX_FILES_WITH_TOOLS],
     )
 
 
-def _usable(name: object) -> bool:
-    """True for a path such as `Settings.using` writes."""
+def _is_path(name: object) -> bool:
+    """True for a path such as `Settings.using` and `Settings.with_tools` write."""
     return isinstance(name, str) and name.isprintable() and Path(name).is_absolute()
-
-
-def _usable_tools(named: tuple[str, object]) -> bool:
-    """True for a path and tools such as `Settings.with_tools` writes."""
-    return _usable(named[0]) and isinstance(named[1], str)
 
 
 def written(settings: Settings) -> str:
     """Return the text of a settings file."""
+    single = [(each.name, getattr(settings, each.name)) for each in fields(settings) if each.name != "tools"]
     lines = (
         "# cutcomp writes this file anew; what else is put into it is lost",
-        f"characters = {_quoted(settings.characters)}",
-        f"theme = {_quoted(settings.theme)}",
-        f"folder = {_quoted(settings.folder)}",
-        f"mouse = {str(settings.mouse).lower()}",
-        f"control = {_quoted(settings.control)}",
+        *(f"{name} = {_quoted(value)}" for name, value in single),
         "[tools]",
         *(f"{_quoted(name)} = {_quoted(text)}" for name, text in settings.tools),
     )
     return "\n".join(lines) + "\n"
 
 
-def _quoted(text: str) -> str:
-    return json.dumps(str(text), ensure_ascii=False).replace("\x7f", "\\u007f")
+def _quoted(value: str | bool) -> str:
+    return json.dumps(value, ensure_ascii=False).replace("\x7f", "\\u007f")
 
 
 def load_settings(path: Path) -> tuple[Settings, str]:

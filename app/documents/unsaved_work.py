@@ -101,7 +101,7 @@ def unsaved_work_on(file: Path | None, kind: Kind, state: Path) -> Iterator[tupl
     Skip what was discarded, and what was set aside from a running process unless that wrote more and has died.
     """
     unnamed = f"unnamed-*{JOURNAL_SUFFIX}"
-    for path in newest_first(state.glob(unnamed)) if file is None else journals_of(file, state):
+    for path in (path for _, path in newest_first(state.glob(unnamed))) if file is None else journals_of(file, state):
         left = left_at(path, kind)
         living = left is not None and left.owner is not None and alive(left.owner)
         if left is not None and not (living and (file is None or reason_set_aside(path))):
@@ -148,17 +148,14 @@ def _still_wants_answer(path: Path) -> bool:
 
 def never_saved(folder: Path, state: Path) -> list[Path]:
     """Return a folder's programs that have a journal but no file yet; raise OSError if the folder cannot be read."""
-    adjacent = [
-        folder / path.name[1:].removesuffix(JOURNAL_SUFFIX)
-        for path in folder.iterdir()
-        if path.name.endswith(JOURNAL_SUFFIX)
-    ]
-    unsaved = [path for path in adjacent if _holds_something(journal_path(path))]
-    named = ((path, path.name.removesuffix(JOURNAL_SUFFIX).rpartition("-")[0]) for path in entries(state))
-    unsaved += [
-        folder / name for path, name in named if elsewhere(folder / name, state) == path and _holds_something(path)
-    ]
-    return sorted({path for path in unsaved if path.suffix.lower() == ".toml" and not path.exists()})
+    journals = [path for path in folder.iterdir() if path.name.endswith(JOURNAL_SUFFIX)]
+    named = [(folder / path.name[1:].removesuffix(JOURNAL_SUFFIX), path) for path in journals]
+    for path in entries(state):
+        file = folder / path.name.removesuffix(JOURNAL_SUFFIX).rpartition("-")[0]
+        if elsewhere(file, state) == path:
+            named.append((file, path))
+    programs = {file for file, journal in named if file.suffix.lower() == ".toml" and _holds_something(journal)}
+    return sorted(file for file in programs if not file.exists())
 
 
 def _holds_something(path: Path) -> bool:
@@ -226,8 +223,9 @@ class KeptCopy:
 
 def kept_copies(folder: Path, state: Path) -> list[KeptCopy]:
     """Return the journals that were set aside in a folder or in the user's own folder, newest first."""
-    dated = [entry for place in dict.fromkeys((folder, state)) for entry in _set_aside_in(place, state)]
-    listed = sorted(((time, path) for time, path in dated if _is_listed(path, folder, state)), reverse=True)
+    beside = (path for path in entries(folder) if path.name.startswith("."))
+    aside = {path for path in (*beside, *entries(state)) if _why(path) in KEPT_COPY_WORDS}
+    listed = newest_first(path for path in aside if _is_listed(path, folder, state))
     return [
         KeptCopy(path, KEPT_COPY_WORDS[_why(path)], times.of_file(time), plain(_file_name(path)))
         for time, path in listed[:MAX_KEPT_COPIES]
@@ -247,14 +245,6 @@ def file_of_copy(path: Path, folder: Path) -> Path | None:
         return None if _file_name(path) == UNNAMED_PROGRAM else folder / _file_name(path)
     adjacent = path.with_name(Path(name).name if name is not None else _file_name(path))
     return adjacent if journal_path(adjacent) == original_path(path.resolve()) else path.with_name(_file_name(path))
-
-
-def _set_aside_in(folder: Path, state: Path) -> Iterator[tuple[int, Path]]:
-    with suppress(OSError):
-        for path in folder.glob(f"*{JOURNAL_SUFFIX}.*" if folder == state else f".*{JOURNAL_SUFFIX}.*"):
-            if _why(path) in KEPT_COPY_WORDS:
-                with suppress(OSError):
-                    yield path.stat().st_mtime_ns, path
 
 
 def _why(path: Path) -> str:
