@@ -19,7 +19,6 @@ if TYPE_CHECKING:
     from core.controls.control_tools import ToolId, ToolTable
     from core.controls.judging.judged_contour import JudgedContour
     from core.draw.scene import Layer, Scene
-    from core.finding import Finding
     from core.pipeline.checking import Answer, CheckRequest
     from core.pipeline.nc_proof import Proof
 
@@ -53,26 +52,17 @@ class RunRequest:
 
 @dataclass(frozen=True, eq=False, slots=True)
 class Result:
-    """A control's run of a text as words, moves and a drawing; `judged` once it holds the verdicts."""
+    """A control's run of a text as words, moves and a drawing; `judged` once it holds the verdicts.
+
+    `dotted` is its path, if it is to be drawn under that of another control.
+    """
 
     request: RunRequest
     answer: Answer
     proof: Proof
     scene: Scene
     judged: bool
-
-    @property
-    def findings(self) -> tuple[Finding, ...]:
-        """All findings, with their lines."""
-        return self.answer.findings
-
-
-@dataclass(frozen=True, eq=False, slots=True)
-class DottedRun:
-    """A run and verdict of a text on another control; `path` is drawn dotted under the first."""
-
-    result: Result
-    path: tuple[Layer, ...]
+    dotted: tuple[Layer, ...] = ()
 
 
 def run(request: RunRequest, progress: Progress = silent) -> Result:
@@ -102,13 +92,13 @@ def with_largest_tool(result: Result, progress: Progress = silent) -> Result:
     return replace(result, answer=answer)
 
 
-def run_dotted(main: Result, control: str, progress: Progress = silent) -> DottedRun:
+def run_dotted(main: Result, control: str, progress: Progress = silent) -> Result:
     """Run and judge the same text on another control; its path lies on the main result's plane."""
     from core.pipeline.nc_proof import dotted_path
 
     other = replace(main.request, control=control)
     result = judge(run(other, part(progress, 0.0, RUN_SHARE)), part(progress, RUN_SHARE, 1.0))
-    return DottedRun(result, dotted_path(result.proof, main.proof.plane))
+    return replace(result, dotted=dotted_path(result.proof, main.proof.plane))
 
 
 def _result(

@@ -22,7 +22,7 @@ from app.documents.nc_text import NcText
 from app.nc_proof import runs
 from app.nc_proof.compare_controls import CompareControls
 from app.nc_proof.listing import Listing
-from app.nc_proof.runs import DottedRun, Result, RunRequest
+from app.nc_proof.runs import Result, RunRequest
 from app.screens.base import BaseScreen
 from app.screens.dialogs import ChooseLine, Phrase
 from app.session.formats import counted
@@ -49,8 +49,6 @@ READING_PROMPT: Final = (
     "Enter edits, N and P go from finding to finding, C another control, T a tool's diameter, V compares all controls."
 )
 EDITING_PROMPT: Final = "Editing. A line is taken when the cursor leaves it; Esc ends editing."
-SEVERITY_ORDER: Final = tuple(Severity)
-"""Severities, the most severe first."""
 _NAMED: Final = re.compile(r"\s*([^=]*[^=\s])\s*=(.*)")
 
 
@@ -112,16 +110,17 @@ class ProofScreen(BaseScreen):
         """The tools typed for this program, now or in an earlier session."""
         self.tools_in_header = runs.header_tools(text)
         """The tools that the header of a program posted by cutcomp names."""
-        self.request = RunRequest(text, control, {**self.tools_in_header, **self.typed_tools}, folder=folder)
+        tools, unit = {**self.tools_in_header, **self.typed_tools}, None
         self.tool = runs.first_tool(text)
         if check_request is not None:
-            tools = {**self.request.tools, **check_request.tools}
-            self.request = RunRequest(text, check_request.control or control, tools, check_request.unit, folder)
+            control, unit = check_request.control or control, check_request.unit
+            tools |= check_request.tools
             self.tool = next(iter(check_request.tools), self.tool)
+        self.request = RunRequest(text, control, tools, unit, folder)
         self.result: Result | None = None
         self.dotted_control = ""
         """The other control whose path is drawn dotted; empty for none."""
-        self.dotted: DottedRun | None = None
+        self.dotted: Result | None = None
         """That control's run of the same text; None until it is known."""
         self.window_view: View | None = None
         self.stopped = self.half_typed = False
@@ -174,13 +173,11 @@ class ProofScreen(BaseScreen):
         """Take what was typed in the listing; return False if the file's encoding cannot hold it."""
         listing = self.query_one(Listing)
         text = self.document.text.with_texts(listing.document.lines)
-        if text is self.document.text:
-            self._half_typed(typed=False)
-            return True
-        if not text.takes("".join(listing.document.lines)):
-            self.say(f"The file is written in {text.encoding}, which cannot hold this line.", Tone.ERROR)
-            return False
-        self._change(text, listing.row)
+        if text is not self.document.text:
+            if not text.takes("".join(listing.document.lines)):
+                self.say(f"The file is written in {text.encoding}, which cannot hold this line.", Tone.ERROR)
+                return False
+            self._change(text, listing.row)
         self._half_typed(typed=False)
         return True
 
@@ -202,24 +199,19 @@ class ProofScreen(BaseScreen):
         self._run_request(replace(self.request, text=text))
 
     def undo_or_redo_own_document(self, action: str, /) -> bool:
-        """Undo or redo an edit of the NC text."""
-        if action == "undo":
-            self._step(action, self.document.text.undo(), "Undone. Ctrl+Y brings it back.")
-        else:
-            self._step(action, self.document.text.redo(), "Redone.")
-        return True
-
-    def _step(self, action: str, text: NcText, done: str) -> None:
+        """Undo or redo an edit of the NC text; a line that is being typed is one."""
         if not self.take_lines():
-            return
-        if text is self.document.text:
+            return True
+        before, undo = self.document.text, action == "undo"
+        text = before.undo() if undo else before.redo()
+        if text is before:
             self.say(f"There is nothing to {action}.")
-            return
-        changes = text.future if len(text.future) > len(self.document.text.future) else text.past
-        row = changes[-1].at if changes else 0
-        self._change(text, row)
-        self._show_text(row)
-        self.say(done)
+        else:
+            row = (text.future if undo else text.past)[-1].at
+            self._change(text, row)
+            self._show_text(row)
+            self.say("Undone. Ctrl+Y brings it back." if undo else "Redone.")
+        return True
 
     def saved(self, document: NcDocument) -> None:
         """Note that the text was saved."""
@@ -312,11 +304,9 @@ class ProofScreen(BaseScreen):
             return
         highlighted = self._highlighted_finding()
         self.result = result
-        marks: dict[int, Severity] = {}
-        for finding in result.findings:
-            if finding.line is not None:
-                known = marks.get(finding.line, Severity.INFO)
-                marks[finding.line] = min(known, finding.severity, key=SEVERITY_ORDER.index)
+        # the most severe of a line's findings comes last, and stays
+        ordered = sorted(self.result_findings, key=_severity, reverse=True)
+        marks = {finding.line: finding.severity for finding in ordered if finding.line is not None}
         self.query_one(Listing).marks = marks
         self._show_findings(highlighted)
         self._show_titles()
@@ -334,11 +324,10 @@ class ProofScreen(BaseScreen):
     async def _run_dotted(self, main: Result, control: str) -> None:
         with suppress(Stopped), self.host.working(self._dotted_stopped) as work:
             dotted = await to_thread(runs.run_dotted, main, control, work)
-            other = dotted.result
             if self.is_live and main.request is self.request and control == self.dotted_control:
                 self.dotted = dotted
                 self._draw()
-                self.say(f"Dotted: {display_name(control)} {other.answer.outcome}. B removes it.")
+                self.say(f"Dotted: {display_name(control)} {dotted.answer.outcome}. B removes it.")
 
     def _end_dotted(self) -> None:
         """Drop the other control's path and stop its run."""
@@ -436,7 +425,7 @@ class ProofScreen(BaseScreen):
 
     def _most_severe(self, among: Sequence[int]) -> int | None:
         """Return the index of the first of the most severe findings among these; None if there are none."""
-        return min(among, key=lambda index: SEVERITY_ORDER.index(self.result_findings[index].severity), default=None)
+        return min(among, key=lambda index: _severity(self.result_findings[index]), default=None)
 
     def _line(self, finding: Finding, error: str, warning: str) -> Content:
         sign = {Severity.ERROR: error, Severity.WARNING: warning}.get(finding.severity, "i")
@@ -457,7 +446,7 @@ class ProofScreen(BaseScreen):
     @property
     def result_findings(self) -> tuple[Finding, ...]:
         """The findings of the last run."""
-        return () if self.result is None else self.result.findings
+        return () if self.result is None else self.result.answer.findings
 
     def action_finding(self, by: int) -> None:
         """Go to the next finding after the line with the cursor, or to the previous one."""
@@ -523,11 +512,10 @@ class ProofScreen(BaseScreen):
         line, dotted = self.document.row + 1, self.dotted
         scene = scene_at_line(self.result.scene, self.result.proof, line)
         if dotted is not None:
-            scene = replace(scene, layers=(*dotted.path, *scene.layers))
-            other = dotted.result
+            scene = replace(scene, layers=(*dotted.dotted, *scene.layers))
             second = self.query_one("#proof-dotted", Drawing)
-            second.heading = f"{display_name(other.request.control)}: {other.answer.outcome}"
-            second.subject = SceneSubject(scene_at_line(other.scene, other.proof, line), self.unit, self.window_view)
+            second.heading = f"{display_name(dotted.request.control)}: {dotted.answer.outcome}"
+            second.subject = SceneSubject(scene_at_line(dotted.scene, dotted.proof, line), self.unit, self.window_view)
         self.set_class(dotted is not None, "-dotted")
         drawing = self.query_one("#proof-drawing", Drawing)
         drawing.heading = f"LINE {line}"
@@ -655,6 +643,11 @@ class ProofScreen(BaseScreen):
             "T gives a tool its diameter, and the verdict follows.",
             "+ and - zoom, 0 shows the whole program, M changes the characters of the drawing.",
         )
+
+
+def _severity(finding: Finding) -> int:
+    """Return a number for sorting, 0 for the most severe."""
+    return list(Severity).index(finding.severity)
 
 
 def read_tool(text: str, tool: ToolId, unit: Unit) -> CutterTool | ToolId | Unreadable:

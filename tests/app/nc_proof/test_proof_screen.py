@@ -20,7 +20,7 @@ from app.documents.programs import example
 from app.file_actions import session_of
 from app.nc_proof.compare_controls import CompareControls
 from app.nc_proof.listing import Listing
-from app.nc_proof.runs import DottedRun, Result, RunRequest, first_tool, header_tools, likely_control, read_tools, run
+from app.nc_proof.runs import Result, RunRequest, first_tool, header_tools, likely_control, read_tools, run
 from app.nc_proof.screen import ProofScreen, read_tool
 from app.screens.base import OpeningScreen
 from app.screens.dialogs import Question
@@ -275,6 +275,18 @@ async def test_letters_change_nothing_until_the_listing_is_edited(tmp_path):
         assert (tmp_path / "p.nc").read_bytes() == b"x" + PROGRAM
 
 
+async def test_undo_takes_back_only_the_line_being_typed(tmp_path):
+    async with at_proof(tmp_path, b"G21\nG0 X1\nM2\n") as user:
+        await user.press("enter", "a", "down", "home", "b")
+        await user.press("ctrl+z")
+        assert user.proof.document.text.data == b"aG21\nG0 X1\nM2\n"
+        await user.press("ctrl+z")
+        assert user.proof.document.text.data == b"G21\nG0 X1\nM2\n"
+        await user.press("ctrl+y", "ctrl+y", "ctrl+y")
+        assert user.proof.document.text.data == b"aG21\nbG0 X1\nM2\n"
+        assert user.prompt == "There is nothing to redo."
+
+
 async def test_an_edited_line_is_journaled_when_the_cursor_leaves_it(tmp_path):
     async with at_proof(tmp_path) as user:
         await user.press("enter", "x", "down")
@@ -419,7 +431,7 @@ async def test_the_dotted_path_follows_text_tool_and_control(tmp_path):
 
         def dotted_end() -> tuple[str, list[float]]:
             assert user.proof.dotted is not None
-            result = user.proof.dotted.result
+            result = user.proof.dotted
             return result.request.control, result.proof.run.moves.points.max(axis=0).round(3).tolist()[:2]
 
         assert dotted_end() == ("fanuc:a", [85.725, 76.2])
@@ -445,7 +457,7 @@ async def test_stopping_the_dotted_run_leaves_the_verdict_unchanged(tmp_path, mo
         await with_tool(user, "1=.75")
         before, started = user.outcome, Event()
 
-        def endless(*arguments: Any) -> DottedRun:
+        def endless(*arguments: Any) -> Result:
             started.set()
             while True:
                 arguments[-1](0.5)
