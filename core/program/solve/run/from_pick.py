@@ -18,7 +18,7 @@ from typing import Final
 from core.geometry.piece import Arc, Point
 from core.program.solve.run.answer_check import objections
 from core.program.solve.run.branch import Run
-from core.program.solve.run.newton import ChainProblem, Numbers, newton_root, norm, slopes
+from core.program.solve.run.newton import HEADING, SIZE, SWEEP, ChainProblem, Numbers, newton_root, norm, slopes
 from core.program.solve.run.search import MAX_SAME_DISTANCE, Answer, same_pieces, search
 
 STARTS_PER_PICK: Final = 48
@@ -111,21 +111,19 @@ _PRIMES: Final = (2, 3, 5, 7, 11, 13, 17, 19, 23, 29, 31, 37, 41, 43, 47, 53)
 
 def _aim(problem: ChainProblem, joint: int, pick: Point, numbers: Numbers, count: int) -> None:
     """Set the unknown numbers of the element before the joint so that it ends at the pick, and aim later headings."""
-    part = problem.parts[joint - 1]
-    start = problem.walk(numbers)[joint - 1].start
+    index, turn = joint - 1, problem.run.elements[joint - 1].turn
+    start = problem.walk(numbers)[index].start
     vector = (pick[0] - start[0], pick[1] - start[1])
+    turned = problem.values(numbers)[index, SWEEP] / 2.0 * turn
+    aimed = {(index, HEADING): atan2(vector[1], vector[0]) - turned}
     chord = hypot(*vector)
-    turned = part.sweep.of(numbers) / 2.0 * part.element.turn
-    if part.heading is not None and part.heading.index is not None:
-        numbers[part.heading.index] = atan2(vector[1], vector[0]) - turned
-    if part.size.index is not None:
-        numbers[part.size.index] = chord / max(0.2, 2.0 * abs(sin(turned))) if part.element.turn else chord
-    for following in problem.parts[joint:]:
-        if following.heading is not None and following.heading.index is not None and count % 2:
-            end = problem.run.elements[-1].known
-            at = problem.walk(numbers)[problem.parts.index(following)].start
-            goal = (end.get("x_end", at[0] + 1.0), end.get("y_end", at[1]))
-            numbers[following.heading.index] = atan2(goal[1] - at[1], goal[0] - at[0])
+    aimed[index, SIZE] = chord / max(0.2, 2.0 * abs(sin(turned))) if turn else chord
+    numbers[:] = [aimed.get(unknown, number) for unknown, number in zip(problem.unknown, numbers, strict=True)]
+    end = problem.run.elements[-1].known
+    for at, (following, quantity) in enumerate(problem.unknown):
+        if count % 2 and following >= joint and quantity == HEADING:
+            x, y = problem.walk(numbers)[following].start
+            numbers[at] = atan2(end.get("y_end", y) - y, end.get("x_end", x + 1.0) - x)
 
 
 def _free(problem: ChainProblem, root: Numbers) -> bool:

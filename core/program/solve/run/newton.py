@@ -7,9 +7,8 @@ the element before, are not unknowns.
 from __future__ import annotations
 
 from collections.abc import Iterator
-from dataclasses import dataclass
 from math import cos, dist, inf, sin, sqrt, tau
-from typing import Final
+from typing import Final, NamedTuple
 
 from core.geometry import construct
 from core.geometry.oriented import OrientedLine
@@ -33,31 +32,13 @@ MAX_ROOT_RESIDUAL: Final = 1e-11
 
 Numbers = list[float]
 
-
-@dataclass(frozen=True, slots=True)
-class _Slot:
-    """One number of an element: its known value, or the index of its unknown."""
-
-    value: float = 0.0
-    index: int | None = None
-
-    def of(self, numbers: Numbers) -> float:
-        """Return the known value, or the unknown's value among `numbers`."""
-        return self.value if self.index is None else numbers[self.index]
+HEADING: Final = 0
+SIZE: Final = 1
+SWEEP: Final = 2
+"""The values of an element of the chain: its initial heading, its length or radius, and the angle an ARC turns by."""
 
 
-@dataclass(frozen=True, slots=True)
-class _Part:
-    """An element of the chain: its heading (None if it follows from the element before), size and sweep."""
-
-    element: Element
-    heading: _Slot | None
-    size: _Slot
-    sweep: _Slot
-
-
-@dataclass(frozen=True, slots=True)
-class _Placed:
+class _Placed(NamedTuple):
     """An element placed on the chain: its start, end and center, its headings and its size."""
 
     start: Point
@@ -71,43 +52,45 @@ class _Placed:
 class ChainProblem:
     """The unknown numbers of a run, and the residual of each datum for given numbers.
 
-    With `surplus` there may be no exact root: more data are typed than needed, or a line only grazes a circle.
+    `unknown` are the unknown values in order, each by the index of its element and HEADING, SIZE or SWEEP; a heading
+    that follows from the element before is neither unknown nor known.  With `surplus` there may be no exact root: more
+    data are typed than needed, or a line only grazes a circle.
     """
 
     def __init__(self, run: Run, known: Branch) -> None:
         self.run = run
         self.surplus = run.missing < 0 or any(known.grazes)
         self.scale = max(run.size, 1.0)
-        self.angular: list[bool] = []
-        self.parts = [self._part(index, element, known) for index, element in enumerate(run.elements)]
+        self.known: dict[tuple[int, int], float] = {}
+        self.unknown: list[tuple[int, int]] = []
+        for index, element in enumerate(run.elements):
+            radius = None if (rho := known.rho[index]) is None else abs(rho)
+            sizes = (radius, known.sweep[index]) if element.turn else (known.length[index], 0.0)
+            for quantity, value in enumerate((known.heading_in[index], *sizes)):
+                if value is not None:
+                    self.known[index, quantity] = value
+                elif quantity != HEADING or index == 0 or element.link is None:
+                    self.unknown.append((index, quantity))
 
-    def _slot(self, value: float | None, *, angular: bool) -> _Slot:
-        if value is not None:
-            return _Slot(value)
-        self.angular.append(angular)
-        return _Slot(index=len(self.angular) - 1)
+    @property
+    def angular(self) -> list[bool]:
+        """Whether each unknown is an angle."""
+        return [quantity != SIZE for _, quantity in self.unknown]
 
-    def _part(self, index: int, element: Element, known: Branch) -> _Part:
-        follows = index > 0 and element.link is not None
-        heading = known.heading_in[index]
-        slot = None if follows and heading is None else self._slot(heading, angular=True)
-        if not element.turn:
-            return _Part(element, slot, self._slot(known.length[index], angular=False), _Slot())
-        rho = known.rho[index]
-        size = self._slot(None if rho is None else abs(rho), angular=False)
-        return _Part(element, slot, size, self._slot(known.sweep[index], angular=True))
+    def values(self, numbers: Numbers) -> dict[tuple[int, int], float]:
+        """Return all values of the elements for these numbers of the unknowns."""
+        return self.known | dict(zip(self.unknown, numbers, strict=True))
 
     def walk(self, numbers: Numbers) -> list[_Placed]:
         """Place the elements of the chain that has these numbers."""
         at, before = self.run.start, self.run.heading or 0.0
-        walked = []
-        for part in self.parts:
-            link, turn = part.element.link, part.element.turn
-            heading = before + (link or 0.0) if part.heading is None else part.heading.of(numbers)
-            size = part.size.of(numbers)
+        values, walked = self.values(numbers), []
+        for index, element in enumerate(self.run.elements):
+            heading = values.get((index, HEADING), before + (element.link or 0.0))
+            size, turn = values[index, SIZE], element.turn
             c, s = cos(heading), sin(heading)
             if turn:
-                arriving = heading + turn * part.sweep.of(numbers)
+                arriving = heading + turn * values[index, SWEEP]
                 center = (at[0] - turn * size * s, at[1] + turn * size * c)
                 end = (center[0] + turn * size * sin(arriving), center[1] - turn * size * cos(arriving))
             else:
@@ -119,18 +102,19 @@ class ChainProblem:
     def residuals(self, numbers: Numbers) -> Numbers:
         """Return the residuals: by how much the chain misses each datum, in millimeters."""
         residuals: Numbers = []
-        walked = self.walk(numbers)
+        walked, values = self.walk(numbers), self.values(numbers)
         before = self.run.heading
-        for part, placed in zip(self.parts, walked, strict=True):
-            known = part.element.known
-            if part.heading is not None and part.element.link is not None and before is not None:
-                residuals.append(self._angle(placed.leaving - before - part.element.link))
-            for name in ("angle", "start_angle"):
-                if name in known and part.heading is None:
-                    residuals.append(self._angle(placed.leaving - known[name]))
+        for index, (element, placed) in enumerate(zip(self.run.elements, walked, strict=True)):
+            known = element.known
+            if (index, HEADING) in values:
+                if element.link is not None and before is not None:
+                    residuals.append(self._angle(placed.leaving - before - element.link))
+            else:
+                typed = (known[name] for name in ("angle", "start_angle") if name in known)
+                residuals += [self._angle(placed.leaving - angle) for angle in typed]
             residuals += [value - known[name] for name, value in _measured(placed) if name in known]
-            residuals += self._point(part.element, placed)
-            residuals += self._parallel(part.element, placed, walked)
+            residuals += self._point(element, placed)
+            residuals += self._parallel(element, placed, walked)
             before = placed.arriving
         return residuals
 
@@ -162,25 +146,22 @@ class ChainProblem:
 
     def numbers_of(self, pieces: Pieces) -> Numbers:
         """Return the values of the unknowns in a chain of pieces."""
-        numbers = [0.0] * len(self.angular)
-        for part, piece in zip(self.parts, pieces, strict=True):
-            heading = heading_at(piece, piece.start)
-            sweep = abs(piece.sweep) if isinstance(piece, Arc) else 0.0
-            size = piece.radius if isinstance(piece, Arc) else piece.length
-            for slot, value in ((part.heading, heading), (part.size, size), (part.sweep, sweep)):
-                if slot is not None and slot.index is not None:
-                    numbers[slot.index] = value
-        return numbers
+        values: dict[tuple[int, int], float] = {}
+        for index, piece in enumerate(pieces):
+            sizes = (piece.radius, abs(piece.sweep)) if isinstance(piece, Arc) else (piece.length, 0.0)
+            for quantity, value in enumerate((heading_at(piece, piece.start), *sizes)):
+                values[index, quantity] = value
+        return [values[unknown] for unknown in self.unknown]
 
     def chain(self, numbers: Numbers) -> Pieces | None:
         """Return the pieces of a root; None if a size or chord vanishes, or a sweep is not within one turn."""
         pieces: list[Piece] = []
         start = self.run.start
-        for part, placed in zip(self.parts, self.walk(numbers), strict=True):
-            known, turn = part.element.known, part.element.turn
+        values = self.values(numbers)
+        for index, (element, placed) in enumerate(zip(self.run.elements, self.walk(numbers), strict=True)):
+            known, turn, sweep = element.known, element.turn, values[index, SWEEP]
             # typed coordinates are met to the last digit
             end = (known.get("x_end", placed.end[0]), known.get("y_end", placed.end[1]))
-            sweep = part.sweep.of(numbers)
             if placed.size <= JOINED or dist(start, end) <= JOINED or (turn and not 0.0 < sweep < tau):
                 return None
             if turn:
