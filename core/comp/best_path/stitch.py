@@ -107,14 +107,9 @@ def _turn_at_nodes(raw: RawOffset, slices: Slices, following: Rows, sign: int) -
     ends, begins = (following < 0).nonzero()[0], _without_predecessor(following).nonzero()[0]
     begins = begins[np.argsort(slices.first[begins], kind="stable")]
     low = np.searchsorted(slices.first[begins], slices.last[ends], side="left")
-    high = np.searchsorted(slices.first[begins], slices.last[ends], side="right")
-    rivals = np.bincount(slices.last[ends], minlength=len(slices.points))[slices.last[ends]]
-    simple = (high - low == 1) & (rivals == 1)
-    following[ends[simple]] = begins[low[simple]]
-    several = ((high > low) & ~simple).nonzero()[0]
-    counts = (high - low)[several]
-    end = np.repeat(ends[several], counts)
-    begin = begins[np.repeat(low[several] - np.cumsum(counts) + counts, counts) + np.arange(counts.sum())]
+    counts = np.searchsorted(slices.first[begins], slices.last[ends], side="right") - low
+    end = np.repeat(ends, counts)
+    begin = begins[np.repeat(low - np.cumsum(counts) + counts, counts) + np.arange(counts.sum())]
     # the pair that turns most to the cutter's side goes first
     nodes = slices.points[slices.last[end]]
     turned = raw.directions(slices.end_piece[end], nodes).conj() * raw.directions(slices.piece[begin], nodes)
@@ -183,34 +178,18 @@ def _pair_up(following: Rows, ends: Rows, begins: Rows, rank: Floats) -> None:
 
 
 def chains(stitched: StitchedSlices) -> list[tuple[Rows, bool]]:
-    """Return the loops and open chains of slices, and whether each is closed; a loop begins at its earliest slice.
-
-    Slices that follow each other in number form one run, and only the runs are visited one by one.
-    """
-    following = stitched.following
-    count = len(following)
-    if not count:
-        return []
-    breaks = (following[:-1] != np.arange(1, count)).nonzero()[0]
-    heads = np.concatenate(([0], breaks + 1))
-    tails = np.concatenate((breaks, [count - 1]))
-    entry = np.searchsorted(heads, following[tails], side="right") - 1
-    return _walk(heads, tails, np.where(following[tails] < 0, -1, entry).tolist())
-
-
-def _walk(heads: Rows, tails: Rows, entry: list[int]) -> list[tuple[Rows, bool]]:
-    """Chain the runs heads[k] ... tails[k], with run entry[k] after run k; open chains start at their beginning."""
-    entered = set(entry)
-    unwalked = dict.fromkeys(range(len(entry)))
+    """Return the loops and open chains of slices, and whether each is closed; a loop begins at its earliest slice."""
+    following = stitched.following.tolist()
+    entered, unwalked = set(following), dict.fromkeys(range(len(following)))
     walked = []
-    for first in [run for run in unwalked if run not in entered] + list(unwalked):
-        rows, run = [], first
-        while run in unwalked:
-            del unwalked[run]
-            rows.append(np.arange(heads[run], tails[run] + 1))
-            run = entry[run]
+    for first in [row for row in unwalked if row not in entered] + list(unwalked):
+        rows, row = list[int](), first
+        while row in unwalked:
+            del unwalked[row]
+            rows.append(row)
+            row = following[row]
         if rows:
-            walked.append((np.concatenate(rows), run == first))
+            walked.append((np.array(rows), row == first))
     return sorted(walked, key=lambda chain: int(chain[0][0]))
 
 
