@@ -17,7 +17,7 @@ from typing import Final
 from core.controls.compared_contours import ContourPair, Parting, contours
 from core.controls.compared_controls import Compared, OtherLanguage, compare
 from core.controls.control_names import display_name
-from core.controls.control_run import MAX_ALIKE, ControlRun, finding_of_omitted
+from core.controls.control_run import MAX_ALIKE, ControlRun, Stretch, finding_of_omitted
 from core.controls.control_tools import CutterTool, ToolId, ToolTable, tool_id
 from core.controls.iso.flow import ProgramLibrary, no_library
 from core.controls.iso.modal_state import RADIUS_ZERO
@@ -171,7 +171,7 @@ class Answer:
 def answer(text: bytes, request: CheckRequest) -> Answer:
     """Return one control's answer."""
     done = run(text, request.control, request.tools, request.unit, request.library)
-    before = (*unusual_tools(request.tools, done.unit), *_foreign(done.control, text), *_idle_compensation(done, text))
+    before = _before(done, text, request.tools)
     return _complete(_answer(done, judge_run(done), before, shop=request.shop), done, text, request)
 
 
@@ -238,7 +238,7 @@ def tool_option(tool: ToolId) -> str:
 
 def answered(done: ControlRun, results: tuple[JudgedContour, ...], text: bytes, tools: ToolTable) -> Answer:
     """Return the answer of a control that has run a text, with the key that gives a tool its size if it needs one."""
-    before = (*unusual_tools(tools, done.unit), *_foreign(done.control, text), *_idle_compensation(done, text))
+    before = _before(done, text, tools)
     return _with_remedy(_answer(done, results, before, shop=False), lambda tool: f"T gives tool {tool} its diameter.")
 
 
@@ -263,12 +263,8 @@ def _compared(row: Compared | OtherLanguage, request: CheckRequest, text: bytes)
         return Answer(row.control, Unit.MM, None, findings, None, outcome, comparison=comparison, state=state)
     comparison = _parting(row.parting, row.reference, row.run.unit) if row.parting else ""
     if not row.contour_of:
-        answer_row = _complete(
-            _answer(row.run, row.results, unusual_tools(request.tools, row.run.unit), shop=request.shop),
-            row.run,
-            text,
-            request,
-        )
+        before = _before(row.run, text, request.tools)
+        answer_row = _complete(_answer(row.run, row.results, before, shop=request.shop), row.run, text, request)
     else:
         reader = display_name(row.contour_of)
         message = f"The program is in another control's language: only its contour was run, as {reader} reads it, with "
@@ -282,6 +278,11 @@ def _language(severity: Severity, message: str) -> Finding:
     return Finding("LANGUAGE", severity, message, line=1, column=1)
 
 
+def _before(done: ControlRun, text: bytes, tools: ToolTable) -> tuple[Finding, ...]:
+    """Return what to know before the findings of a run: unusual tools, a wrong language, and that nothing is judged."""
+    return (*unusual_tools(tools, done.unit), *_foreign(done.control, text), *_idle_compensation(done, text))
+
+
 def _foreign(control: str, text: bytes) -> tuple[Finding, ...]:
     if reads(control, text):
         return ()
@@ -290,8 +291,10 @@ def _foreign(control: str, text: bytes) -> tuple[Finding, ...]:
 
 
 def _idle_compensation(done: ControlRun, text: bytes) -> tuple[Finding, ...]:
-    """Warn if a program has compensation but no compensated move was run: nothing has been judged then."""
-    if done.stretches or done.stopped_at is not None or any(each.code in RADIUS_ZERO for each in done.findings):
+    """Warn if a program has compensation but no compensated move was run, or only one: nothing has been judged then."""
+    if done.stretches:
+        return tuple(_without_contour(stretch) for stretch in done.stretches if _has_no_contour(done, stretch))
+    if done.stopped_at is not None or any(each.code in RADIUS_ZERO for each in done.findings):
         return ()
     compensates = _COMPENSATES_KLARTEXT if is_klartext(done.control) else _COMPENSATES
     lines = enumerate(lines_of(text), 1)
@@ -301,6 +304,16 @@ def _idle_compensation(done: ControlRun, text: bytes) -> tuple[Finding, ...]:
     message = "Compensation is programmed here, but no compensated move is run: nothing is judged. "
     message += "Check the loops, jumps and calls that lead here."
     return (Finding("NOT_RUN", Severity.WARNING, message, line=line),)
+
+
+def _has_no_contour(done: ControlRun, stretch: Stretch) -> bool:
+    contour = stretch.programmed.moving_in(stretch.plane)[stretch.entry + 1 :]
+    return bool(stretch.radius) and not contour.any() and not done.stops_within(stretch)
+
+
+def _without_contour(stretch: Stretch) -> Finding:
+    text = "Compensation turns off right after this move, which turns it on: it slants, and nothing is judged."
+    return Finding("NO-CONTOUR", Severity.WARNING, text, line=int(stretch.programmed.lines[stretch.entry]) or None)
 
 
 def _answer(done: ControlRun, results: tuple[JudgedContour, ...], before: tuple[Finding, ...], *, shop: bool) -> Answer:

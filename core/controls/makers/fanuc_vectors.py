@@ -98,8 +98,7 @@ class VectorQueue(Recorder):
         if element.turn:
             self._no_arc(element, self.alarms.arc)
         self.active, self.motionless, self.before = True, 0, None
-        if not self.stretch_open:
-            self.open_stretch(self.coming, element)
+        self.open_stretch(self.coming, element)
         self.note(element)
         self.held = Held(element, [self.here], self.coming, startup=True)
 

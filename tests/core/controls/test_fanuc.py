@@ -18,6 +18,7 @@ from core.controls.iso import macro_b_flow
 from core.controls.iso.iso_run import run_iso
 from core.controls.makers import fanuc
 from core.finding import Severity
+from core.geometry.piece import Side
 from core.units import Unit
 from tests.core.controls.hand import DATA, findings_of, lines_and_ends
 
@@ -1278,3 +1279,15 @@ def test_a_program_in_increments_goes_on_after_a_tool_change() -> None:
     run = ran(f"{HEAD}G0 Z10.\nG91 Z-5.\nT2 M6\nG0 X9.\nZ-2.\nM30\n")
     assert run.stopped_at is None
     assert run.moves.points[-1].tolist() == [9.0, 0.0, 3.0]
+
+
+@pytest.mark.parametrize("control", ["fanuc:a", "haas:b"])
+def test_compensation_without_a_contour_is_a_stretch_of_its_own(control: str) -> None:
+    """Each side of a slot in one move: by hand, the first goes from Y0 to Y5, and so does the second on its way back."""
+    slot = "G0 X0. Y0.\nG41 D1\nG1 X50. F100.\nG40\nG0 Z5.\nY0.\nG42 D1\nG1 X0.\nG40\nZ50.\nM30\n"
+    run = ran(f"{HEAD}{slot}", control)
+    assert [(stretch.side, stretch.programmed.lines.tolist()) for stretch in run.stretches] == [
+        (Side.LEFT, [0, 4]),
+        (Side.RIGHT, [0, 9]),
+    ]
+    assert [move.point[:2] for move in run.moves if move.line in (4, 9)] == [(50.0, 5.0), (0.0, 5.0)]

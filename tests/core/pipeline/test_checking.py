@@ -310,6 +310,18 @@ def test_compensation_in_a_subprogram_that_nothing_calls_is_one_warning(control:
     assert [finding.line for finding in row.findings if finding.code == "NOT_RUN"] == [5]
 
 
+@pytest.mark.parametrize(("contour", "lines"), [("", [5]), ("Y40.\n", []), ("Z-6.\n", [5])])
+@pytest.mark.parametrize("control", ["fanuc:a", "haas:a", "nine-series:a", "linuxcnc"])
+def test_compensation_without_a_contour_is_a_warning(control: str, contour: str, lines: list[int]) -> None:
+    """The wall of a slot in one move: it begins on the programmed line and ends a radius beside it."""
+    text = f"G21 G17 G90 G40\nT1 M6\nG0 X0. Y0. Z5.\nG1 Z-5. F100.\nG41 D1 X50.\n{contour}G40\nG0 Z5.\nX0.\nM30\n"
+    row = answer(text.encode(), request_for(control, CutterTool(1, 10.0)))
+    assert row.stopped_at is None, row.findings
+    assert [finding.line for finding in row.findings if finding.code == "NO-CONTOUR"] == lines
+    beside, *_ = answer_all(text.encode(), request_for("all", CutterTool(1, 10.0)), control)
+    assert beside.findings == row.findings
+
+
 def test_klartext_compensation_that_is_jumped_over_is_a_warning() -> None:
     text = "BEGIN PGM A MM\nTOOL CALL 1 Z S1000\nL X+0 Y-30 R0 FMAX\n{}L X+0 Y+0 RL F100\nL Y+40\nL X+40 R0\nLBL 1\n"
     text += "L Z+50 R0 FMAX\nEND PGM A MM\n"
