@@ -1283,7 +1283,7 @@ def test_a_program_in_increments_goes_on_after_a_tool_change() -> None:
 
 @pytest.mark.parametrize("control", ["fanuc:a", "haas:b"])
 def test_compensation_without_a_contour_is_a_stretch_of_its_own(control: str) -> None:
-    """Each side of a slot in one move: by hand, the first goes from Y0 to Y5, and so does the second on its way back."""
+    """Each side of a slot in one move: by hand, each goes from Y0 to Y5, the second one on its way back."""
     slot = "G0 X0. Y0.\nG41 D1\nG1 X50. F100.\nG40\nG0 Z5.\nY0.\nG42 D1\nG1 X0.\nG40\nZ50.\nM30\n"
     run = ran(f"{HEAD}{slot}", control)
     assert [(stretch.side, stretch.programmed.lines.tolist()) for stretch in run.stretches] == [
