@@ -156,6 +156,9 @@ def _call(state: State, name: str, words: Words) -> None:
         state.log.stop("TWICE", f"{axes[0]} and {axes[1]} are both tool axes. Keep one.", words.at(axes[1]))
     if axes and _PLANE_OF_TOOL_AXIS[axes[0]] is not state.plane:
         state.plane, state.pole = _PLANE_OF_TOOL_AXIS[axes[0]], None
+    if name not in ("", state.tool) and len(state.waiting.center.tape) > 1:
+        # the machine raises the tool to where it changes it
+        state.at_machine_place.add(state.plane.axes[2])
     state.tool = name or state.tool
     state.note_spindle()
     state.last = None

@@ -74,7 +74,7 @@ class State:
     position: list[float] = field(default_factory=lambda: [0.0, 0.0, 0.0])
     known: set[int] = field(default_factory=set)
     at_machine_place: set[int] = field(default_factory=set)
-    """Axes that M91, M92 or M140 has sent to a place that only the machine knows."""
+    """Axes that M91, M92, M140 or a tool change has sent to a place that only the machine knows."""
     lost: bool = False
     """The tool axis is one of them when the block starts."""
     shift: list[float] = field(default_factory=lambda: [0.0, 0.0, 0.0])

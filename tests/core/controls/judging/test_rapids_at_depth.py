@@ -191,6 +191,9 @@ def test_m91_in_klartext_ends_the_known_depth() -> None:
         ("L M140 MB MAX FMAX\nL X+60 Y+20 R0 FMAX\n", 0),
         ("L M140 MB50 FMAX\nL X+60 Y+20 R0 FMAX\n", 0),
         ("L M140 MB MAX FMAX\nL Z-5 R0 FMAX\nL X+60 Y+20 R0 FMAX\n", 1),
+        ("TOOL CALL 2 Z S1000\nL X+60 R0 FMAX\nL IZ+5 R0 FMAX\nL X+20 R0 FMAX\n", 0),
+        ("TOOL CALL 2 Z S1000\nL Z-5 R0 FMAX\nL X+60 R0 FMAX\n", 1),
+        ("TOOL CALL 1 Z S2000\nL X+60 R0 FMAX\n", 1),
     ],
 )
 def test_absolute_words_in_klartext_make_a_position_known_again(after: str, count: int) -> None:
