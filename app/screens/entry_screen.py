@@ -27,7 +27,7 @@ class EntryScreen(BaseScreen):
     """
 
     AUTO_FOCUS: ClassVar[str | None] = "#entry"
-    BINDINGS: ClassVar[list[BindingType]] = [Binding("escape", "app.back", "Back", show=False)]
+    BINDINGS: ClassVar[list[BindingType]] = [Binding("escape", "leave", "Back", show=False)]
     TITLE: ClassVar[str] = ""
     LABEL: ClassVar[str] = "FILE"
     MORE_KEYS: ClassVar[tuple[tuple[str, str], ...]] = NO_LIST_KEYS
@@ -77,6 +77,17 @@ class EntryScreen(BaseScreen):
         super().say(text, tone)
         if tone is Tone.ERROR:
             self.query_one("#entry", Input).select_all()
+
+    def action_leave(self) -> None:
+        """Go back to the name, then restore it if it was changed, then close the screen."""
+        entry = self.query_one("#entry", Input)
+        if not entry.has_focus:
+            entry.focus()
+        elif entry.value != self._text:
+            entry.value = self._text
+            entry.select_all()
+        else:
+            self.call_later(self.run_action, "app.back")
 
     @on(Input.Submitted, "#entry")
     def action_enter(self) -> None:

@@ -62,7 +62,7 @@ class SheetScreen(EntryScreen):
     def action_ending(self, ending: str) -> None:
         """Change the suffix of the file name."""
         if Path(self.text).name:
-            self.text = str(Path(self.text).with_suffix(ending))
+            self._text = self.text = str(Path(self.text).with_suffix(ending))
 
     @work(exclusive=True, group="question")
     async def entered(self, text: str) -> None:

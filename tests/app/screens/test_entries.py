@@ -8,7 +8,7 @@ from dataclasses import replace
 
 import pytest
 from textual import events
-from textual.widgets import Static
+from textual.widgets import Input, Static
 
 from app.documents.files import load
 from app.documents.programs import empty_program, example
@@ -219,3 +219,22 @@ async def test_a_tool_that_may_be_in_the_other_unit_is_a_warning_where_it_is_typ
     await user.press("tab", "tab", "shift+tab")
     await user.finish()
     assert user.prompt == f"{text} F6 is TOOL SETUP."
+
+
+async def test_escape_brings_a_changed_file_name_back_before_it_leaves(user: Operator):
+    for action, name in (("app.post", "part.nc"), ("app.sheet", "part.html"), ("app.save_as", "part.toml")):
+        before = user.screen
+        await user.app.run_action(action)
+        await user.settle()
+        await user.press("'plate", "escape")
+        entry = user.screen.query_one("#entry", Input)
+        assert (entry.value, entry.selected_text) == (name, name)
+        await user.press("escape")
+        assert user.screen is before
+
+
+async def test_escape_in_the_list_of_controls_leads_back_to_the_name(user: Operator):
+    await user.app.run_action("app.post")
+    await user.press("f2", "escape")
+    assert user.app.focused is not None
+    assert user.app.focused.id == "entry"
