@@ -85,8 +85,10 @@ class HomeScreen(BaseScreen):
         yield Drawing(id="preview")
 
     def on_mount(self) -> None:
-        """List the files."""
-        self.show_folder(self.folder, at=self._at)
+        """List the files, with the cursor on the open one unless another is asked for."""
+        proofs = self.host.proofs
+        file = proofs[-1].document.file.path if proofs else self.current_session.file
+        self.show_folder(self.folder, at=self._at or (None if file is None else file.absolute()))
 
     def on_screen_resume(self) -> None:
         """Refresh the list, except the first time: files may have changed behind another screen."""

@@ -27,7 +27,7 @@ from core.program.model import Number
 if TYPE_CHECKING:
     from core.advice.lookahead_table import Row, Table
 
-COLUMNS = (("VALUE", 5), ("GOUGE", 9), ("UNCUT", 9), ("DELETES", 11), ("", 12))
+COLUMNS = (("VALUE", 5), ("GOUGE", 12), ("UNCUT", 8), ("DELETES", 10), ("", 13))
 WAITING = "The table is being calculated."
 NO_TABLE = "There is no path to compare yet: type START and the first segments."
 
@@ -136,17 +136,16 @@ def _cells(row: Row, table: Table, session: Session, marks: Marks) -> tuple[Cont
     if not row.clean:
         depth = length(row.gouge, unit) if row.gouge else "wrong side"
         gouge = Content.styled(f"{marks.gouge} {depth}", "bold $c-gouge")
-    notes = []
-    if row.value == table.recommended:
-        notes.append("best")
-    if row.value == lookahead.calculated:
+    notes = ["best"] if row.value == table.recommended else []
+    if row.value == lookahead.calculated and not (notes and row.value == lookahead.value):
+        # the title says of the value in force that it is CAL
         notes.append("CAL")
     if row.value == lookahead.value:
         notes.append("in force")
     deleted = Content.styled(segment_numbers(row.deleted), "$c-deleted")
     left = length(row.uncut, unit) if row.verdict.uncut else "none"
     role = "$c-cal" if row.value == lookahead.calculated else ""
-    return Content(f"{row.value:>5}"), gouge, Content(f"{left:>9}"), deleted, Content.styled(" ".join(notes), role)
+    return Content(f"{row.value:>5}"), gouge, Content(f"{left:>8}"), deleted, Content.styled(" ".join(notes), role)
 
 
 def _worst_point(row: Row) -> tuple[float, float] | None:

@@ -15,6 +15,7 @@ from app.screens.contour import ContourScreen
 from app.screens.draw import DrawScreen
 from app.screens.form_screen import FormScreen
 from app.screens.help import HelpScreen
+from app.screens.home import HomeScreen
 from app.screens.lookahead import LookaheadScreen
 from app.screens.palette import NOTHING_FOUND
 from app.screens.post import PostScreen
@@ -49,6 +50,18 @@ async def test_the_look_ahead_table_draws_the_cursor_row_and_enter_takes_it(user
     await user.press("enter")
     assert user.session.block.lookahead == Number(1.0)
     assert (user.value("lookahead"), user.tag("lookahead")) == ("1", "USR")
+
+
+async def test_the_best_look_ahead_is_marked_in_full_while_it_is_in_force(user: Operator):
+    await user.press(*["tab"] * 11, "'2", "enter")
+    await run(user, "app.lookahead")
+    table = user.screen.query_one(DataTable)
+    assert table.get_row_at(1)[4].plain == "best in force"
+    assert all(
+        cell.cell_length <= column.width
+        for cell, column in zip(table.get_row_at(1), table.columns.values(), strict=True)
+    )
+    assert table.virtual_size.width <= table.scrollable_content_region.width, "no column is cut off"
 
 
 async def test_draw_steps_through_the_findings_and_returns_to_the_form(user: Operator):
@@ -594,3 +607,13 @@ async def test_next_finding_on_draw_goes_through_those_without_a_place_too(user:
         await user.press("n")
         seen.append(draw.at)
     assert seen == list(range(len(entries)))
+
+
+async def test_home_opens_with_the_cursor_on_the_open_file(user: Operator, tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    for name in ("a", "b", "c"):
+        user.app.save_as(name)
+        await user.finish()
+    await run(user, "app.home")
+    assert isinstance(user.app.screen, HomeScreen)
+    assert user.app.screen.chosen.path == tmp_path / "c.toml"
