@@ -8,11 +8,13 @@ from rich.text import Text
 from textual.binding import Binding, BindingType
 from textual.reactive import reactive
 
+from app.session.block_findings import WAITING_CODES
 from app.session.formats import length
 from app.session.posting import deleted_numbers
 from app.session.session import Session
 from app.widgets.rows import RowTable
 from app.widgets.verdict import MARKS_OF_CHARACTERS
+from core.finding import Severity
 from core.pipeline.derived import DerivedBlock
 from core.program.fields import form_of
 from core.program.model import BlendSegment, ChamferSegment, Number
@@ -28,11 +30,17 @@ COLUMNS = (
     ("outcome", "", 12),
 )
 """Key, heading and width of each column."""
-OUTCOME_COLORS = {"gouge": "$c-gouge", "uncut": "$c-uncut", "deleted": "$c-deleted", "type": "$c-warn"}
+OUTCOME_COLORS = {
+    "error": "$c-err",
+    "missing": "$c-warn",
+    "gouge": "$c-gouge",
+    "uncut": "$c-uncut",
+    "deleted": "$c-deleted",
+}
 
 
 class SegmentRow(NamedTuple):
-    """The texts of a row's columns; `outcome` is gouge, uncut, deleted, type (values are missing) or empty."""
+    """The texts of a row's columns; `outcome` is error, missing (a value is), gouge, uncut, deleted or empty."""
 
     number: str
     type: str
@@ -92,7 +100,8 @@ class SegmentList(RowTable[Text]):
 
     def _outcome_cell(self, outcome: str) -> Text:
         marks = MARKS_OF_CHARACTERS[self.characters]
-        sign = {"gouge": marks.gouge, "uncut": marks.warning, "deleted": marks.deleted, "type": "?"}.get(outcome, "")
+        signs = {"gouge": marks.gouge, "uncut": marks.warning, "deleted": marks.deleted}
+        sign = (signs | {"error": marks.gouge, "missing": "?"}).get(outcome, "")
         color = self.app.theme_variables.get(OUTCOME_COLORS.get(outcome, "")[1:], "")
         return Text(f"  {sign} {outcome}".rstrip(), color.removeprefix("ansi_"))
 
@@ -101,6 +110,12 @@ def segment_rows(block: DerivedBlock, unit: Unit) -> list[SegmentRow]:
     """Return the rows of START and the segments."""
     start = block.solved.values
     outcomes = _outcomes(block)
+    for solved in block.solved.segments:
+        errors = {finding.code for finding in solved.findings if finding.severity is Severity.ERROR}
+        if errors - WAITING_CODES - {"PICK_SOLUTION"}:
+            outcomes[solved.number] = "error"
+        elif solved.missing:
+            outcomes[solved.number] = "missing"
     first = SegmentRow("0", "START", _text(start.get("x_start"), unit), _text(start.get("y_start"), unit), "", "")
     return [first, *(_row(block, segment, unit, outcomes.get(segment.number, "")) for segment in block.solved.segments)]
 
@@ -123,7 +138,7 @@ def _row(block: DerivedBlock, solved: SolvedSegment, unit: Unit, outcome: str) -
         x,
         y,
         "" if feed is None else show(feed, Kind.FEED, unit),
-        "type" if solved.missing else outcome,
+        outcome,
     )
 
 

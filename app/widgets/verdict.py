@@ -274,7 +274,7 @@ def _first_error(case: Case, marks: Marks) -> Content:
     if len(text) > CHIPS_WIDTH and ". " in text[:CHIPS_WIDTH]:
         text = f"{text.partition('. ')[0]}."
     elif len(text) > CHIPS_WIDTH and ": " in text[SHORTEST_CHIP:CHIPS_WIDTH]:
-        text = f"{text[: text.index(': ', SHORTEST_CHIP)]}."
+        text = f"{text[: text.rindex(': ', SHORTEST_CHIP, CHIPS_WIDTH)]}."
     return Content.styled(shortened(text, CHIPS_WIDTH), f"bold {role}")
 
 

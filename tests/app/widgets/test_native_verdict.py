@@ -14,7 +14,7 @@ from app.widgets.verdict import MARKS_OF_CHARACTERS, Case, Verdict, chips, strip
 from core.finding import Finding, Severity
 from core.pipeline.derive import derive, look_ahead_table
 from core.pipeline.derived import DerivedBlock
-from core.program.model import Number, Unread, changed
+from core.program.model import ArcSegment, Number, Unread, changed
 from core.units import Unit
 
 
@@ -82,6 +82,11 @@ def test_the_chips_show_an_error_after_a_clean_beginning():
     assert title(case).endswith("segments 1-2 only")
     assert chips(case, MARKS_OF_CHARACTERS["braille"]).plain.startswith("✖ Segment 3, X END: 4.7.5 ")
     assert "none" not in chips(case, MARKS_OF_CHARACTERS["braille"]).plain
+    # a sentence too long for the line is cut after its last part that has room
+    fourth = replace(ArcSegment(), start_angle=Unread("y", "y is not a number: type degrees such as 22.5"))
+    spoiled = replace(program, blocks=(replace(block, segments=(*block.segments[:3], fourth)),))
+    case = Case(derive(spoiled).block(1), None, program.unit)
+    assert chips(case, MARKS_OF_CHARACTERS["braille"]).plain == "✖ Segment 4, START ANGLE: y is not a number."
     # a segment that is only incomplete is no error
     blank = changed(block.segments[2], {"x_end": None})
     waiting = replace(program, blocks=(replace(block, segments=(*block.segments[:2], blank, *block.segments[3:])),))
