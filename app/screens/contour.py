@@ -219,7 +219,8 @@ class ContourScreen(BlockActions, FormScreen):
         """Mount a new form and focus its field; the next key is read only when this is done."""
         await self.query_one("#fields").mount(form)
         self._offer_letters(self.current_session)
-        self.focus_field(self.current_session.cursor.field or "")
+        if self.current_session.cursor.field is not None:
+            self.focus_field(self.current_session.cursor.field)
         self.refresh_frame()
 
     def _offer_letters(self, session: Session) -> None:
@@ -357,15 +358,15 @@ class ContourScreen(BlockActions, FormScreen):
     def _close_panels(self) -> None:
         self.remove_class("-full", *(f"-{panel}" for panel in PANELS))
 
-    @property
-    def is_small(self) -> bool:
-        """True if a list and the form have room for a few rows each only."""
-        return self.has_class("-narrow") or self.has_class("-native")
+    def _can_grow(self, name: str | None) -> bool:
+        """Return whether an open list has few rows and could have those of the form too."""
+        small = self.has_class("-narrow") or (name == "findings" and self.has_class("-native"))
+        return small and not self.has_class("-full")
 
     def action_panel(self, name: str) -> None:
         """Move the cursor into a list, which replaces the drawing unless there is room for both, or close the list.
 
-        On small screens, the key of the findings first gives them the place of the form too.
+        A list of few rows first gets the place of the form too.
         After the list the cursor returns to the field where it was.
         """
         if not self.take():
@@ -374,7 +375,7 @@ class ContourScreen(BlockActions, FormScreen):
         if self.current is not None:
             self._left_field = (self.current_session.place, self.current.name or SEGMENT_FIELD)
         is_open, target = self.has_class(f"-{name}"), self.query_one(f"#{name}", Widget)
-        if is_open and name == "findings" and self.is_small and not self.has_class("-full"):
+        if is_open and self._can_grow(name):
             self.add_class("-full")
             self.set_focus(target)
             self.refresh_frame()
@@ -451,7 +452,7 @@ class ContourScreen(BlockActions, FormScreen):
         """Put the cursor on a field, or on SEGMENT if the field belongs to another form, as a finding's may."""
         # the form comes back if the findings had its place
         self.remove_class("-full")
-        super().focus_field(SEGMENT_FIELD if name and self.widget(name) is None else name)
+        super().focus_field(SEGMENT_FIELD if self.widget(name) is None else name)
 
     def value(self, name: str) -> Value | str:
         """Return what a field holds."""
@@ -539,10 +540,9 @@ class ContourScreen(BlockActions, FormScreen):
     def prompt_text(self) -> Sentence:
         """Return a list's keys, the prompt of SEGMENT, an empty LINE's other kinds, or the field's prompt."""
         if self.focused is not None and self.focused.id in LIST_PROMPTS:
-            grows = self.focused.id == "findings" and self.is_small and not self.has_class("-full")
             empty = self.focused.id == "findings" and not self.entries
             keys = "There are no findings in this block. F10" if empty else LIST_PROMPTS[self.focused.id]
-            return Sentence(f"{keys} {'makes it taller' if grows else 'closes'}.")
+            return Sentence(f"{keys} {'makes it taller' if self._can_grow(self.focused.id) else 'closes'}.")
         segment, field = self.current_session.segment, self.current_field
         if isinstance(segment, LineSegment) and edit.is_empty(segment) and field is not None and field.name == "x_end":
             widget = self.current
@@ -671,9 +671,13 @@ class ContourScreen(BlockActions, FormScreen):
             self.clear_notice()
             self.go(int(text))
 
-    def go(self, segment: int, field: str = SEGMENT_FIELD) -> None:
-        """Move the cursor to a segment of this block."""
-        self.host.move(FormPlace(self.current_session.place.block, segment), field)
+    def go(self, number: int) -> None:
+        """Move the cursor to a segment of this block; in one that is still empty, to its first field."""
+        session = self.current_session
+        field, segment = SEGMENT_FIELD, session.block.segments[number - 1] if number else None
+        if segment is not None and edit.is_empty(segment):
+            field = table.FIELDS_OF_FORM[table.form_of(segment)][0].name
+        self.host.move(FormPlace(session.place.block, number), field)
 
     def action_go(self, segment: int) -> None:
         """Go to a segment; -1 is the last one."""
@@ -718,9 +722,8 @@ class ContourScreen(BlockActions, FormScreen):
         # an empty segment can still have FEED: typed, or taken from the block before
         new = replace(kind(), feed=segment.feed)
         outcome = without if isinstance(without, Refused) else edit.insert_segment(without, session.place, new)
-        form = table.form_of(new)
-        if self.host.apply(outcome, f"{form} {session.place.segment}, block {session.place.block}"):
-            self.go(session.place.segment, table.FIELDS_OF_FORM[form][0].name)
+        if self.host.apply(outcome, f"{table.form_of(new)} {session.place.segment}, block {session.place.block}"):
+            self.go(session.place.segment)
 
     def action_insert_segment(self) -> None:
         """Insert a LINE before the segment with the cursor."""
@@ -738,9 +741,8 @@ class ContourScreen(BlockActions, FormScreen):
         if number == 1 and not session.block.segments:
             segment = replace(segment, feed=_last_feed(session))
         outcome = edit.insert_segment(session.program, place, segment)
-        form = table.form_of(segment)
-        if self.host.apply(outcome, f"new {form} {number}, block {place.block}"):
-            self.go(number, table.FIELDS_OF_FORM[form][0].name)
+        if self.host.apply(outcome, f"new {table.form_of(segment)} {number}, block {place.block}"):
+            self.go(number)
 
     @on(ChoiceField.Blanked)
     def _blanked(self, event: ChoiceField.Blanked) -> None:

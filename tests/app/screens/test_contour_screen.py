@@ -321,6 +321,15 @@ async def test_a_letter_leads_back_from_every_empty_kind_of_segment(user: Operat
     assert user.prompt == "L is not a choice. Left and right change it."
 
 
+async def test_page_down_to_a_segment_that_is_still_empty_leads_to_its_first_field(user: Operator):
+    await user.begin("notch")
+    await user.press("ctrl+end", "pagedown", "a", "pageup")
+    assert user.at == "segment"
+    # on SEGMENT its first letter would make a CHAMFER of the ARC
+    await user.press("pagedown", "'ccw")
+    assert (user.at, user.value("direction")) == ("direction", "CCW")
+
+
 async def test_the_field_with_the_cursor_scrolls_into_view_on_a_tiny_terminal():
     async with operator(size=(40, 12)) as user:
         await user.press(*["down"] * 7)

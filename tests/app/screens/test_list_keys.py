@@ -152,3 +152,19 @@ async def test_f10_again_gives_the_findings_the_whole_height_and_closes_them_the
         await user.press("f10", "f10")
         assert not findings.display
         assert user.at == "segment"
+
+
+async def test_f9_again_gives_the_segments_the_whole_height_of_a_narrow_terminal():
+    async with operator(size=(60, 20)) as user:
+        await user.press("f9")
+        segments = user.screen.query_one("#segments", Widget)
+        assert segments.size.height == 2
+        assert user.prompt.endswith("F9 makes it taller.")
+        await user.press("f9", "down")
+        assert segments.size.height == 12
+        assert user.prompt.endswith("F9 closes.")
+        assert user.session.place.segment == 1
+        await user.press("f9")
+        assert not segments.display
+        assert user.screen.query_one("#fields", Widget).display
+        assert user.at == "segment"
