@@ -25,7 +25,7 @@ from textual.events import DescendantFocus, Resize, ScreenResume
 from textual.reactive import Reactive, var
 from textual.screen import ModalScreen, Screen
 from textual.widget import Widget
-from textual.widgets import Input
+from textual.widgets import Input, OptionList
 
 from app.session.guide import NOT_NEEDED
 from app.session.messages import Sentence, Tone
@@ -51,8 +51,9 @@ WIDTH_CLASSES: Final = [(0, "-narrow"), (80, "-native"), (100, "-medium"), (132,
 HEIGHT_CLASSES: Final = [(0, "-short"), (28, "-tall")]
 """The style class of a screen from each number of columns, or of lines, upward."""
 
+LIST_KEYS: Final = (("F9", "SEGMENTS"), ("F10", "FINDINGS"))
 NO_LIST_KEYS: Final = (("^K", "ALL ACTIONS"), ("?", "KEYS, HELP"))
-"""The keys under the softkeys of a screen that is not of a block."""
+"""The keys under the softkeys: those of a block's lists, and those of a screen that is not of a block."""
 
 
 class BaseScreen(Screen[None]):
@@ -71,12 +72,7 @@ class BaseScreen(Screen[None]):
         Binding("ctrl+p", "finding(-1)", "Finding before", show=False),
     ]
     SOFTKEYS: ClassVar[tuple[Softkey | None, ...]] = (None,) * 8
-    MORE_KEYS: ClassVar[tuple[tuple[str, str], ...]] = (
-        ("F9", "SEGMENTS"),
-        ("F10", "FINDINGS"),
-        ("^K", "ALL ACTIONS"),
-        ("?", "KEYS, HELP"),
-    )
+    MORE_KEYS: ClassVar[tuple[tuple[str, str], ...]] = (*LIST_KEYS, *NO_LIST_KEYS)
     """Further keys, listed under the softkeys; the keys of lists and findings act only where F10 is one of them."""
     PROMPT: ClassVar[str] = ""
     """What the keys do, where that is always the same."""
@@ -161,6 +157,13 @@ class BaseScreen(Screen[None]):
         """Show the next or previous finding on MILL CONTOUR."""
         if (form := self.host.form_in_front()) is not None:
             form.step_finding(by, form.selected_finding)
+
+    @on(OptionList.OptionSelected)
+    def _go_to_finding(self, event: OptionList.OptionSelected) -> None:
+        """Go to the field that a finding is about; skip a finding that has gone meanwhile."""
+        findings = event.option_list
+        if isinstance(findings, FindingsList) and event.option_index == findings.highlighted:
+            self.host.go_to(findings.entries[event.option_index])
 
     def help_lines(self) -> tuple[str, ...]:
         """Return sentences about this screen, for HELP."""

@@ -1,4 +1,4 @@
-"""Deletes, inserts, copies and moves blocks, on the screens that show one: PROGRAM and MILL CONTOUR."""
+"""Deletes, inserts, copies and moves blocks, on the screens that show one, and recalculates their look-ahead."""
 
 from __future__ import annotations
 
@@ -18,6 +18,7 @@ from core.program.edit import (
     delete_block,
     insert_block,
     move_block,
+    recalculate_lookahead,
     share_values,
 )
 from core.program.fields import Form, field_of
@@ -85,6 +86,13 @@ class BlockActions(BaseScreen):
         elif self.host.apply(move_block(program, at, to), f"MOVE BLOCK {at} {'UP' if by < 0 else 'DOWN'}"):
             self.host.move(FormPlace(to, segment))
             self.say(f"Block {at} is block {to} now.")
+
+    def action_recalculate(self) -> None:
+        """Restore the calculated look-ahead of the block with the cursor."""
+        session, number = self.current_session, self.chosen
+        recalculated = recalculate_lookahead(session.program, number)
+        if self.host.apply(recalculated, f"RECALCULATE LOOKAHEAD, block {number}"):
+            self.say(f"CUTCOMP LOOKAHEAD is calculated: CAL {session.derived.block(number).lookahead.calculated}.")
 
     @work(exclusive=True, group="question")
     async def action_share_values(self) -> None:

@@ -16,6 +16,7 @@ from textual.widgets import DataTable, Label, OptionList
 from textual.widgets.option_list import Option
 
 from app.documents.tool_tables import tool_line
+from app.screens.base import LIST_KEYS
 from app.screens.block_actions import COPY_AND_MOVE, INSERT_AND_DELETE, BlockActions
 from app.screens.contour_cells import (
     RIGHT_COLUMN,
@@ -33,7 +34,7 @@ from app.screens.contour_cells import (
     value_at,
 )
 from app.screens.dialogs import ChooseLine
-from app.screens.form_screen import FormScreen
+from app.screens.form_screen import TONES, FormScreen
 from app.session.block_findings import TO_TYPE, WAITING_CODES, Entry, block_findings, remedy
 from app.session.guide import on_form
 from app.session.messages import Sentence, Tone
@@ -135,7 +136,7 @@ class ContourScreen(BlockActions, FormScreen):
         Softkey("DRAW", "app.draw", "DRAW"),
         Softkey("EXIT to program", "app.program", "EXIT"),
     )
-    MORE_KEYS: ClassVar[tuple[tuple[str, str], ...]] = (("F9", "SEGMENTS"), ("F10", "FINDINGS"), ("?", "KEYS, HELP"))
+    MORE_KEYS: ClassVar[tuple[tuple[str, str], ...]] = (*LIST_KEYS, ("?", "KEYS, HELP"))
     PALETTE_ACTIONS: ClassVar[tuple[tuple[str, str, str], ...]] = (
         *FormScreen.PALETTE_ACTIONS,
         *COPY_AND_MOVE,
@@ -328,10 +329,14 @@ class ContourScreen(BlockActions, FormScreen):
         placed = self.placed
         if not placed:
             self.say("There are no findings.")
-            return
-        self.selected_finding = (0 if by > 0 else len(placed) - 1) if here is None else (here + by) % len(placed)
+        else:
+            self._select((0 if by > 0 else len(placed) - 1) if here is None else (here + by) % len(placed))
+
+    def _select(self, at: int) -> None:
+        """Move the loupe and the list to one of the findings that have a position in the drawing."""
+        self.selected_finding = at
         self._show_drawings(self.host.displayed)
-        self.query_one(FindingsList).highlighted = self.entries.index(placed[self.selected_finding])
+        self.query_one(FindingsList).highlighted = self.entries.index(self.placed[at])
 
     @on(Drawing.Picked)
     def _picked_in_drawing(self, event: Drawing.Picked) -> None:
@@ -342,9 +347,7 @@ class ContourScreen(BlockActions, FormScreen):
         reach = NEAR_CELLS * (0.0 if event.drawing.drawn is None else event.drawing.drawn.view.scale)
         near = [at for at, entry in enumerate(placed) if entry.at is not None and dist(entry.at, event.at) <= reach]
         if near and event.drawing.id == "outline":
-            self.selected_finding = near[0]
-            self._show_drawings(self.host.displayed)
-            self.query_one(FindingsList).highlighted = self.entries.index(placed[near[0]])
+            self._select(near[0])
         elif (segment := nearest_segment(self.current_session.derived_block, event.at)) is not None and self.take():
             self.go(segment)
 
@@ -426,12 +429,6 @@ class ContourScreen(BlockActions, FormScreen):
         placed = self.placed
         self.selected_finding = placed.index(entry) if entry in placed else None
         self._show_drawings(self.host.displayed)
-
-    @on(OptionList.OptionSelected, "#findings")
-    def _finding_chosen(self, event: OptionList.OptionSelected) -> None:
-        """Go to the field that the finding is about; skip a finding that has gone meanwhile."""
-        if event.option_index == event.option_list.highlighted:
-            self.host.go_to(self.entries[event.option_index])
 
     # ---- the fields
 
@@ -603,27 +600,17 @@ class ContourScreen(BlockActions, FormScreen):
         may_follow = stop is not None and run_lacks(session)
         if session.program is not before and run_stops(session) and not may_follow:
             return
-        if session.program is not before and widget.name in DEPTH_FIELDS and self._no_depth():
+        depths = (each for each in session.derived_block.findings if each.code == "Z_ORDER")
+        no_depth = next(depths, None) if widget.name in DEPTH_FIELDS else None
+        if session.program is not before and no_depth is not None:
             # after a new Z START the old Z BOTTOM is the one to be corrected
             self.focus_field("z_bottom")
-            self._say_depth()
+            self.say(sentence(no_depth, session.program.unit), TONES[no_depth.severity])
             return
         if stop is not None:
             self.focus_field(stop)
         else:
             self._form_done()
-
-    def _no_depth(self) -> Finding | None:
-        """Return the finding that Z BOTTOM is not below Z START; None if it is."""
-        findings = self.current_session.derived_block.findings
-        return next((each for each in findings if each.code == "Z_ORDER"), None)
-
-    def _say_depth(self) -> None:
-        """Say that Z BOTTOM is not below Z START."""
-        finding = self._no_depth()
-        if finding is not None:
-            tone = Tone.ERROR if finding.severity is Severity.ERROR else Tone.WARNING
-            self.say(sentence(finding, self.current_session.program.unit), tone)
 
     def _form_done(self) -> None:
         """After a form's last field, go back to a field that still needs an answer, else to the next segment."""
@@ -803,16 +790,6 @@ class ContourScreen(BlockActions, FormScreen):
             self.notify(f"Deleted segment {place.segment}. Ctrl+Z brings it back.", timeout=3)
             if in_list:
                 self.call_after_refresh(self.set_focus, segments)
-
-    def action_recalculate(self) -> None:
-        """Restore the calculated look-ahead."""
-        session = self.current_session
-        number = session.place.block
-        if not self.host.apply(
-            edit.recalculate_lookahead(session.program, number), f"RECALCULATE LOOKAHEAD, block {number}"
-        ):
-            return
-        self.say(f"CUTCOMP LOOKAHEAD is calculated: CAL {session.derived_block.lookahead.calculated}.")
 
 
 def _last_feed(session: Session) -> Typed:

@@ -168,12 +168,6 @@ class DrawScreen(BaseScreen):
         if event.option_list.has_focus and not late and event.option_index != self.at:
             self._take(event.option_index)
 
-    @on(OptionList.OptionSelected)
-    def _chosen(self, event: OptionList.OptionSelected) -> None:
-        """Go to the field that the finding is about; skip a finding that has gone meanwhile."""
-        if event.option_index == event.option_list.highlighted:
-            self.host.go_to(self.entries[event.option_index])
-
     def action_zoom(self, steps: int) -> None:
         """Zoom in or out about the cross, or about the center of the window without one."""
         self.drawing.action_zoom(steps)

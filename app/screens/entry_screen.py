@@ -8,7 +8,7 @@ from typing import ClassVar
 from textual import on
 from textual.app import ComposeResult
 from textual.binding import Binding, BindingType
-from textual.containers import Horizontal, Vertical
+from textual.containers import Horizontal, Vertical, VerticalScroll
 from textual.widgets import Input
 
 from app.documents.paths import path_of_text
@@ -27,7 +27,11 @@ class EntryScreen(BaseScreen):
     """
 
     AUTO_FOCUS: ClassVar[str | None] = "#entry"
-    BINDINGS: ClassVar[list[BindingType]] = [Binding("escape", "leave", "Back", show=False)]
+    BINDINGS: ClassVar[list[BindingType]] = [
+        Binding("escape", "leave", "Back", show=False),
+        Binding("pagedown", "scroll(1)", "Next page", show=False),
+        Binding("pageup", "scroll(-1)", "Page before", show=False),
+    ]
     TITLE: ClassVar[str] = ""
     LABEL: ClassVar[str] = "FILE"
     MORE_KEYS: ClassVar[tuple[tuple[str, str], ...]] = NO_LIST_KEYS
@@ -60,10 +64,6 @@ class EntryScreen(BaseScreen):
         """The name as typed, without spaces around it."""
         return self.query_one("#entry", Input).value.strip()
 
-    @text.setter
-    def text(self, text: str) -> None:
-        self.query_one("#entry", Input).value = text
-
     @abstractmethod
     def entered(self, text: str) -> object:
         """Act on the name."""
@@ -88,6 +88,11 @@ class EntryScreen(BaseScreen):
             entry.select_all()
         else:
             self.call_later(self.run_action, "app.back")
+
+    def action_scroll(self, by: int) -> None:
+        """Scroll what is below the input line down or up by a page."""
+        for text in self.query(VerticalScroll):
+            (text.scroll_page_down if by > 0 else text.scroll_page_up)(animate=False)
 
     @on(Input.Submitted, "#entry")
     def action_enter(self) -> None:

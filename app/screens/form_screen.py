@@ -25,6 +25,8 @@ from core.units import Kind, printable, sentence
 
 CALCULATOR_KINDS: Final = frozenset({Kind.LENGTH, Kind.ANGLE})
 
+TONES: Final = {Severity.ERROR: Tone.ERROR, Severity.WARNING: Tone.WARNING}
+"""The tones of the findings that a prompt reports."""
 SOFTKEY_WAIT: Final = 2.0
 """Seconds after Esc in which a digit presses a softkey."""
 OLD_VALUE: Final = "The old number is back. Esc again, then 1 to 8, presses a softkey."
@@ -381,7 +383,7 @@ class FormScreen(BaseScreen):
 
     def trouble(self, field: Field) -> Sentence | None:
         """Return the first error or warning of any block about this field, which all blocks share."""
-        derived, tones = self.current_session.derived, {Severity.ERROR: Tone.ERROR, Severity.WARNING: Tone.WARNING}
-        findings = (finding for block in derived.blocks for finding in block.findings if finding.severity in tones)
+        derived = self.current_session.derived
+        findings = (finding for block in derived.blocks for finding in block.findings if finding.severity in TONES)
         first = next((finding for finding in findings if finding.field == field.name), None)
-        return None if first is None else Sentence(sentence(first, derived.program.unit), tones[first.severity])
+        return None if first is None else Sentence(sentence(first, derived.program.unit), TONES[first.severity])

@@ -12,7 +12,7 @@ from textual.containers import Vertical
 from textual.content import Content
 from textual.widgets import DataTable, Static
 
-from app.screens.base import BaseScreen
+from app.screens.block_actions import BlockActions
 from app.session.formats import length, segment_numbers
 from app.session.messages import Sentence
 from app.session.session import Session
@@ -21,7 +21,7 @@ from app.widgets.plain import PlainText
 from app.widgets.rows import RowTable
 from app.widgets.softkeys import Softkey, Softkeys
 from app.widgets.verdict import MARKS_OF_CHARACTERS, Marks
-from core.program.edit import FormPlace, recalculate_lookahead, type_field
+from core.program.edit import FormPlace, type_field
 from core.program.model import Number
 
 if TYPE_CHECKING:
@@ -32,7 +32,7 @@ WAITING = "The table is being calculated."
 NO_TABLE = "There is no path to compare yet: type START and the first segments."
 
 
-class LookaheadScreen(BaseScreen):
+class LookaheadScreen(BlockActions):
     """The table, with a drawing of the path for the row with the cursor."""
 
     AUTO_FOCUS: ClassVar[str | None] = "#values"
@@ -116,12 +116,6 @@ class LookaheadScreen(BaseScreen):
         if self.host.apply(edited, f"CUTCOMP LOOKAHEAD {row.value}, block {place.block}"):
             self.host.move(place, "lookahead")
             self.app.call_later(self.app.run_action, "app.back")
-
-    def action_recalculate(self) -> None:
-        """Restore the calculated look-ahead."""
-        number = self.current_session.place.block
-        edited = recalculate_lookahead(self.current_session.program, number)
-        self.host.apply(edited, f"RECALCULATE LOOKAHEAD, block {number}")
 
     def prompt_text(self) -> Sentence:
         """Return what the keys do, or why there is no table."""

@@ -9,7 +9,6 @@ from typing import TYPE_CHECKING, ClassVar, Final
 
 from textual import on, work
 from textual.app import ComposeResult
-from textual.binding import Binding, BindingType
 from textual.containers import Horizontal, VerticalScroll
 from textual.content import Content
 from textual.widgets import Input, OptionList, Static
@@ -53,10 +52,6 @@ class PostScreen(EntryScreen):
         Softkey("BACK to program", "app.back", "BACK"),
     )
     MORE_KEYS: ClassVar[tuple[tuple[str, str], ...]] = BaseScreen.MORE_KEYS
-    BINDINGS: ClassVar[list[BindingType]] = [
-        Binding("pagedown", "scroll(1)", "More findings", show=False),
-        Binding("pageup", "scroll(-1)", "Findings before", show=False),
-    ]
 
     def __init__(self, text: str = "") -> None:
         super().__init__(text)
@@ -117,11 +112,6 @@ class PostScreen(EntryScreen):
     def action_controls(self) -> None:
         """Move the cursor to the list of controls."""
         self.query_one("#post-controls").focus()
-
-    def action_scroll(self, by: int) -> None:
-        """Scroll the findings down or up by a page."""
-        findings = self.query_one("#post-reasons", VerticalScroll)
-        (findings.scroll_page_down if by > 0 else findings.scroll_page_up)(animate=False)
 
     def _make(self, program: Program) -> None:
         self.made, self.stopped, self._enter_waits, self._program = None, False, False, program

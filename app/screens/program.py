@@ -10,9 +10,10 @@ from textual.app import ComposeResult
 from textual.binding import Binding, BindingType
 from textual.containers import Horizontal, Vertical
 from textual.content import Content
-from textual.widgets import DataTable, Label, OptionList
+from textual.widgets import DataTable, Label
 
 from app.documents.folder_list import outcome_of
+from app.screens.base import LIST_KEYS
 from app.screens.block_actions import COPY_AND_MOVE, BlockActions
 from app.session.block_findings import block_findings
 from app.session.formats import counted
@@ -53,12 +54,7 @@ class ProgramScreen(BlockActions):
         Softkey("DRAW", "app.draw", "DRAW"),
         Softkey("BACK to files", "app.home", "BACK"),
     )
-    MORE_KEYS: ClassVar[tuple[tuple[str, str], ...]] = (
-        ("F9", "SEGMENTS"),
-        ("F10", "FINDINGS"),
-        ("^S", "SAVE"),
-        ("?", "KEYS, HELP"),
-    )
+    MORE_KEYS: ClassVar[tuple[tuple[str, str], ...]] = (*LIST_KEYS, ("^S", "SAVE"), ("?", "KEYS, HELP"))
     PROMPT: ClassVar[str] = "Enter edits the block. C copies it, Ctrl+Up and Ctrl+Down move it."
     PALETTE_ACTIONS: ClassVar[tuple[tuple[str, str, str], ...]] = COPY_AND_MOVE
 
@@ -145,12 +141,6 @@ class ProgramScreen(BlockActions):
     def _fill(self) -> None:
         """Show the findings on a terminal that has become large enough for them."""
         self.call_after_refresh(self._draw)
-
-    @on(OptionList.OptionSelected)
-    def _edit_finding(self, event: OptionList.OptionSelected) -> None:
-        """Go to the field that the finding is about; skip a finding that has gone meanwhile."""
-        if event.option_index == event.option_list.highlighted:
-            self.host.go_to(self.query_one(FindingsList).entries[event.option_index])
 
     @on(DataTable.RowSelected)
     def _edit_block(self, event: DataTable.RowSelected) -> None:

@@ -8,10 +8,9 @@ from typing import ClassVar
 
 from textual import work
 from textual.app import ComposeResult
-from textual.binding import Binding, BindingType
 from textual.containers import VerticalScroll
 from textual.content import Content
-from textual.widgets import Static
+from textual.widgets import Input, Static
 
 from app.screens.entry_screen import EntryScreen
 from app.session.posting import setup_sheet
@@ -26,10 +25,6 @@ class SheetScreen(EntryScreen):
 
     TITLE: ClassVar[str] = "SETUP SHEET"
     PROMPT: ClassVar[str] = "Name of the sheet, Enter writes it: .html with drawing, .txt text. Page Down: read on."
-    BINDINGS: ClassVar[list[BindingType]] = [
-        Binding("pagedown", "scroll(1)", "Next page", show=False),
-        Binding("pageup", "scroll(-1)", "Page before", show=False),
-    ]
     SOFTKEYS: ClassVar[tuple[Softkey | None, ...]] = (
         Softkey("WRITE", "enter", "WRITE"),
         Softkey("PAGE WITH DRAWING", "ending('.html')", "PAGE"),
@@ -42,11 +37,6 @@ class SheetScreen(EntryScreen):
         """Yield the sheet, which scrolls."""
         with VerticalScroll(id="sheet", can_focus=False):
             yield PlainText(id="sheet-text")
-
-    def action_scroll(self, by: int) -> None:
-        """Scroll the sheet down or up by a page."""
-        sheet = self.query_one("#sheet", VerticalScroll)
-        (sheet.scroll_page_down if by > 0 else sheet.scroll_page_up)(animate=False)
 
     def show_session(self, session: Session) -> None:
         """Make the sheet of the current program."""
@@ -62,7 +52,8 @@ class SheetScreen(EntryScreen):
     def action_ending(self, ending: str) -> None:
         """Change the suffix of the file name."""
         if Path(self.text).name:
-            self._text = self.text = str(Path(self.text).with_suffix(ending))
+            self._text = str(Path(self.text).with_suffix(ending))
+            self.query_one("#entry", Input).value = self._text
 
     @work(exclusive=True, group="question")
     async def entered(self, text: str) -> None:
