@@ -44,7 +44,7 @@ from app.widgets.block_drawings import BlockDrawings
 from app.widgets.drawing import Drawing
 from app.widgets.field import LISTED_FIELDS, ChoiceField, Form, NumberField
 from app.widgets.findings_list import FindingsList
-from app.widgets.plain import PlainLabel
+from app.widgets.plain import PlainLabel, show_text
 from app.widgets.segment_list import SegmentList
 from app.widgets.softkeys import Softkey
 from app.widgets.verdict import Case, Verdict
@@ -241,9 +241,7 @@ class ContourScreen(BlockActions, FormScreen):
             "segment-count": f"of {last}" if last else "",
         }
         for name, text in texts.items():
-            label = self.query_one(f"#{name}", Label)
-            if str(label.content) != text:
-                label.update(text)
+            show_text(self.query_one(f"#{name}", Label), text, layout=True)
         self.query_one(f"#{SEGMENT_FIELD}", SegmentField).show(str(segment))
 
     def follow_displayed(self, displayed: Session) -> None:
@@ -565,10 +563,8 @@ class ContourScreen(BlockActions, FormScreen):
     def refresh_frame(self) -> None:
         """Also mark SEGMENT with > while it has the cursor."""
         super().refresh_frame()
-        label = self.query_one("#segment-label", Label)
         text = "SEGMENT >" if isinstance(self.current, SegmentField) else "SEGMENT"
-        if str(label.content) != text:
-            label.update(text, layout=False)
+        show_text(self.query_one("#segment-label", Label), text)
 
     # ---- moving between segments
 

@@ -91,17 +91,13 @@ def _cell(session: Session, field: Field, column: int, unit: Unit, *, needed: bo
         full = "" if solution is None else solution.label
         return Cell("choice", field.label, text, column, state, "", full, labels, visible, folds=True)
     if field.name == "coolant":
-        return _coolant_cell(session, field)
+        solved = session.derived_block.solved
+        state = State.TYPED if solved.coolant_origin is None else State.USUAL
+        tag = str(solved.coolant_origin or "")
+        return Cell("coolant", field.label, str(solved.coolant), 1, state, tag, choices=field.choices)
     overrides = field.name == "lookahead" and session.derived_block.lookahead.tag is Tag.USR
     value = value_at(session, field.name)
     return cell_of(field, value, unit, column, needed=needed, overrides=overrides, visible=visible)
-
-
-def _coolant_cell(session: Session, field: Field) -> Cell:
-    solved = session.derived_block.solved
-    text, origin = str(solved.coolant), solved.coolant_origin
-    state = State.TYPED if origin is None else State.USUAL
-    return Cell("coolant", field.label, text, 1, state, str(origin or ""), choices=field.choices)
 
 
 def solution_here(session: Session) -> Solution | None:

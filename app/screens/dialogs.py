@@ -234,32 +234,23 @@ class NumberForm(Dialog[tuple[float, ...]]):
 
     @on(Input.Submitted)
     def _submitted(self, event: Input.Submitted) -> None:
-        inputs = list(self.query(Input))
-        here = inputs.index(event.input)
-        value = self.entries[here].read(event.value, self.unit)
-        if isinstance(value, Unreadable):
-            self._say(value.reason)
-        elif here + 1 < len(inputs):
-            self._say("")
-            inputs[here + 1].focus()
-        else:
-            self._take(inputs)
-
-    def _take(self, inputs: Sequence[Input]) -> None:
-        values = [entry.read(each.value, self.unit) for each, entry in zip(inputs, self.entries, strict=True)]
-        for each, value in zip(inputs, values, strict=True):
+        """Read the number and go to the next one; after the last one, read all of them again."""
+        inputs, trouble = list(self.query(Input)), self.query_one("#number-trouble", Static)
+        here, numbers = inputs.index(event.input), []
+        last = here + 1 == len(inputs)
+        for at in range(0 if last else here, here + 1):
+            value = self.entries[at].read(inputs[at].value, self.unit)
             if isinstance(value, Unreadable):
-                each.focus()
-                self._say(value.reason)
+                inputs[at].focus()
+                trouble.update(value.reason)
                 return
-        numbers = tuple(value for value in values if isinstance(value, float))
-        if self.refusal is not None and (refused := self.refusal(*numbers)):
-            self._say(refused)
-        else:
-            self.dismiss(numbers)
-
-    def _say(self, text: str) -> None:
-        self.query_one("#number-trouble", Static).update(text)
+            numbers.append(value)
+        refused = self.refusal(*numbers) if last and self.refusal is not None else ""
+        trouble.update(refused)
+        if not last:
+            inputs[here + 1].focus()
+        elif not refused:
+            self.dismiss(tuple(numbers))
 
 
 class ChooseLine(Dialog[str]):
@@ -300,35 +291,34 @@ class ChooseLine(Dialog[str]):
 class ChooseSeveral(Dialog["frozenset[str] | None"]):
     """A list for choosing several rows: Space marks, Enter takes the marked rows; Esc and F8 return None.
 
-    Each row is a result and its text; `chosen` holds the results that are marked at first.
+    `chosen` holds the rows that are marked at first.
     """
 
     BINDINGS: ClassVar[list[BindingType]] = [Binding("space", "mark", "Mark", show=False)]
     NOTHING: ClassVar[None] = None
 
-    def __init__(self, title: str, rows: Sequence[tuple[str, str]], chosen: Collection[str]) -> None:
+    def __init__(self, title: str, rows: Sequence[str], chosen: Collection[str]) -> None:
         super().__init__(title)
         self.rows, self.chosen = tuple(rows), set(chosen)
 
     def compose_box(self) -> ComposeResult:
         """Lay out the list."""
         yield PlainText("Space marks, Enter takes what is marked.", id="loss")
-        yield OptionRows(*(Option(self._words(row)) for row in range(len(self.rows))), id="answers")
+        yield OptionRows(*(Option(self._marked(row)) for row in self.rows), id="answers")
 
     def on_mount(self) -> None:
         """Put the cursor on the first row."""
         self.query_one(OptionList).highlighted = 0 if self.rows else None
 
-    def _words(self, row: int) -> Content:
-        result, words = self.rows[row]
-        return Content(f"[{'x' if result in self.chosen else ' '}] {words}")
+    def _marked(self, row: str) -> Content:
+        return Content(f"[{'x' if row in self.chosen else ' '}] {row}")
 
     def action_mark(self) -> None:
         """Mark or unmark the row with the cursor."""
         answers = self.query_one(OptionList)
-        if (row := answers.highlighted) is not None:
-            self.chosen ^= {self.rows[row][0]}
-            answers.replace_option_prompt_at_index(row, self._words(row))
+        if (at := answers.highlighted) is not None:
+            self.chosen ^= {self.rows[at]}
+            answers.replace_option_prompt_at_index(at, self._marked(self.rows[at]))
 
     @on(OptionList.OptionSelected)
     def _selected(self) -> None:

@@ -104,10 +104,10 @@ class DrawScreen(BaseScreen):
         """The drawing widget."""
         return self.query_one("#full-drawing", FullDrawing)
 
-    @property
-    def subject(self) -> Subject | None:
-        """What the drawing shows."""
-        return cast("Subject | None", self.drawing.subject)
+    def _redraw(self, **changes: object) -> None:
+        """Change what the drawing shows."""
+        if self.drawing.subject is not None:
+            self.drawing.subject = replace(self.drawing.subject, **changes)
 
     def show_session(self, session: Session) -> None:
         """Show the block with the cursor as it is now; the window stays."""
@@ -126,7 +126,7 @@ class DrawScreen(BaseScreen):
         self.query_one("#draw-chips", Label).update(
             chips(case, MARKS_OF_CHARACTERS[self.host.characters], findings_key="N")
         )
-        before = self.subject
+        before = cast("Subject | None", self.drawing.subject)
         near, view = (None, None) if before is None else (before.near, before.view)
         self.drawing.subject = Subject(block, unit, segment, near=near, view=view, cross=self.cross)
         self._show_heading()
@@ -156,8 +156,8 @@ class DrawScreen(BaseScreen):
     def _take(self, number: int) -> None:
         self.at = number
         entry = self.entries[number]
-        if self.subject is not None and entry.at is not None:
-            self.drawing.subject = replace(self.subject, near=entry.at, view=None)
+        if entry.at is not None:
+            self._redraw(near=entry.at, view=None)
         self._show_heading()
         self.query_one(FindingsList).highlighted = number
         self.say(entry.text)
@@ -175,8 +175,7 @@ class DrawScreen(BaseScreen):
     def action_fit(self) -> None:
         """Show the whole part and select no finding."""
         self.at = None
-        if self.subject is not None:
-            self.drawing.subject = replace(self.subject, near=None, view=None)
+        self._redraw(near=None, view=None)
         self._show_heading()
         self.clear_notice()
 
@@ -213,8 +212,7 @@ class DrawScreen(BaseScreen):
 
     def _show_cross(self, at: Point | None) -> None:
         self.cross = self.drawing.zoomed_about = at
-        if self.subject is not None:
-            self.drawing.subject = replace(self.subject, cross=at)
+        self._redraw(cross=at)
         self.clear_notice()
         self.refresh_frame()
 

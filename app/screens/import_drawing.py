@@ -581,14 +581,14 @@ class ImportScreen(BaseScreen):
         drawing, options = self.drawing, self.options
         if drawing is None or options is None:
             return
-        rows = [(layer, layer) for layer in drawing.layers]
-        chosen = await self.app.push_screen_wait(ChooseSeveral("LAYERS", rows, options.layers or drawing.layers))
+        layers = drawing.layers
+        chosen = await self.app.push_screen_wait(ChooseSeveral("LAYERS", layers, options.layers or layers))
         if chosen is None:
             return
         if not chosen:
             self.say("No layer is marked: nothing was changed.", Tone.WARNING)
             return
-        self._list(replace(options, layers=None if len(chosen) == len(rows) else chosen))
+        self._list(replace(options, layers=None if len(chosen) == len(layers) else chosen))
 
     def _branch_of(self, contour: Contour) -> Branch | None:
         """Return the first branch at which this contour and at least one other open contour end."""

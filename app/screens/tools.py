@@ -17,7 +17,7 @@ from app.session.messages import Sentence, Tone
 from app.session.session import Session
 from app.widgets.drawing import Drawing
 from app.widgets.field import Cell, ChoiceField, NumberField, State
-from app.widgets.plain import PlainLabel, PlainText
+from app.widgets.plain import PlainLabel, PlainText, show_text
 from app.widgets.softkeys import Softkey
 from core.pipeline.derived import DerivedBlock
 from core.program.edit import Edited, Refused, delete_tool, set_tool
@@ -235,10 +235,7 @@ class ToolsScreen(FormScreen):
             tools = (tool, *(other for other in program.tools if other is not tool))
             lines = [f"TOOL {tool.number}", *(_uses(program, tool.number) or ["Not used by any block."])]
             lines += [fault for each in tools for fault in _faults(each, program.unit)]
-        text = "\n".join(lines)
-        panel = self.query_one("#tool-use", Static)
-        if str(panel.content) != text:
-            panel.update(text, layout=False)
+        show_text(self.query_one("#tool-use", Static), "\n".join(lines))
         self._draw_use(tool)
 
     def _draw_use(self, tool: Tool | None) -> None:

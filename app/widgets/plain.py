@@ -28,6 +28,12 @@ class PlainLabel(Label):
         super().__init__(content, id=id, classes=classes, markup=False)
 
 
+def show_text(line: Static, text: VisualType, *, layout: bool = False) -> None:
+    """Show a text; do nothing if it is shown already.  `layout` lets the widget become as wide as the text."""
+    if line.content != text:
+        line.update(text, layout=layout)
+
+
 class PrintableFilter(LineFilter):
     """Drops characters that a terminal could take for a command; the line keeps its width in cells."""
 

@@ -75,7 +75,7 @@ class SegmentList(RowTable[Text]):
         self._rows = []
 
     def show(self, session: Session) -> None:
-        """Show the segments of the block with the cursor; update only cells that differ."""
+        """Show the segments of the block with the cursor; update only rows that differ."""
         rows, before = segment_rows(session.derived_block, session.program.unit), self._rows
         cursor_row = self.cursor_row
         if len(rows) != len(before):
@@ -84,9 +84,8 @@ class SegmentList(RowTable[Text]):
                 self.add_row(*(self._cell(row, key) for key, _, _ in COLUMNS), key=row.number)
         else:
             for old, row in zip(before, rows, strict=True):
-                for (key, _, _), text, old_text in zip(COLUMNS, row, old, strict=True):
-                    if text != old_text or (row.outcome != old.outcome and key == "type"):
-                        self.update_cell(row.number, key, self._cell(row, key))
+                for key, _, _ in COLUMNS if row != old else ():
+                    self.update_cell(row.number, key, self._cell(row, key))
         self._rows = rows
         self.follow(session.place.segment, cursor_row)
 

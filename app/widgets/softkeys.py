@@ -58,25 +58,18 @@ class SoftkeyLabel(PlainText):
         if self._state == (key, acts, short):
             return
         self.key, self._state = key, (key, acts, short)
-        self.update(_short_label(self.number, key, acts) if short else _label(self.number, key, acts), layout=False)
+        cap, label, look = f" F{self.number} ", "" if key is None else key.label, "" if acts else "dim"
+        if short:
+            cap, label = cap.strip(), "" if key is None else key.short
+        elif len(label) > MAX_LABEL_CHARACTERS:
+            label = label.replace(" ", "\n     ", 1)
+        words = (" ", (label, look)) if label or short else ()
+        self.update(Text.assemble((cap, "reverse bold" if acts else "dim"), *words), layout=False)
 
     def on_click(self, event: events.Click) -> None:
         """Press the key."""
         event.stop()
         self.screen.call_later(self.screen.run_action, f"softkey({self.number})")
-
-
-def _label(number: int, key: Softkey | None, acts: bool) -> Text:
-    cap = (f" F{number} ", "reverse bold" if acts else "dim")
-    if key is None:
-        return Text.assemble(cap)
-    label = key.label if len(key.label) <= MAX_LABEL_CHARACTERS else key.label.replace(" ", "\n     ", 1)
-    return Text.assemble(cap, " ", (label, "" if acts else "dim"))
-
-
-def _short_label(number: int, key: Softkey | None, acts: bool) -> Text:
-    cap = (f"F{number}", "reverse bold" if acts else "dim")
-    return Text.assemble(cap, " ", ("" if key is None else key.short, "" if acts else "dim"))
 
 
 class Softkeys(Vertical):

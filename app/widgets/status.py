@@ -19,7 +19,7 @@ from app.documents.time_limits import within
 from app.session.messages import Sentence, Tone
 from app.session.session import Session
 from app.session.work import Work
-from app.widgets.plain import PlainLabel, PlainText
+from app.widgets.plain import PlainLabel, PlainText, show_text
 from core.units import Unit
 
 MINUTE = 60.0
@@ -88,7 +88,6 @@ class Status(Horizontal):
     def __init__(self, surroundings: Surroundings) -> None:
         super().__init__(id="status")
         self.surroundings = surroundings
-        self._texts: dict[str, str] = {}
         self._unit = self._work = ""
 
     def compose(self) -> ComposeResult:
@@ -141,9 +140,7 @@ class Status(Horizontal):
             self.read_machine()
 
     def _show(self, name: str, text: str) -> None:
-        if self._texts.get(name) != text:
-            self._texts[name] = text
-            self.query_one(f"#{name}", Label).update(text, layout=False)
+        show_text(self.query_one(f"#{name}", Label), text)
 
 
 def size_text(size: int) -> str:

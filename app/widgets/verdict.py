@@ -21,7 +21,7 @@ from app.documents.folder_list import Outcome
 from app.session.block_findings import GOUGE_CODES, TO_TYPE, WAITING_CODES
 from app.session.formats import length, segment_numbers, shortened
 from app.session.posting import deleted_numbers, deleted_segments
-from app.widgets.plain import PlainText
+from app.widgets.plain import PlainText, show_text
 from core.comp.lookahead import MAX_LOOKAHEAD
 from core.finding import Severity
 from core.pipeline.derived import DerivedBlock
@@ -116,9 +116,7 @@ class Verdict(Vertical):
         self.border_title = title(self.case)
         marks = MARKS_OF_CHARACTERS[self.characters]
         for name, line in (("strip", strip(self.case, marks)), ("chips", chips(self.case, marks))):
-            static = self.query_one(f"#{name}", Static)
-            if static.content != line:
-                static.update(line, layout=False)
+            show_text(self.query_one(f"#{name}", Static), line)
 
     watch_case = watch_characters = _show
 
