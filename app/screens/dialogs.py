@@ -5,6 +5,7 @@ from __future__ import annotations
 from abc import abstractmethod
 from collections.abc import Callable, Collection, Sequence
 from dataclasses import dataclass
+from textwrap import fill
 from typing import Any, ClassVar, Final, TypeVar
 
 from textual import events, on
@@ -25,6 +26,8 @@ from core.units import Kind, Unit, Unreadable, parse
 
 TALL = 16
 """Rows of the terminal from which a question has blank lines."""
+ANSWER_WIDTH: Final = 46
+"""Cells of an answer's line; what has no room goes below its first word."""
 LINES_UP_AND_DOWN: Final[list[BindingType]] = [
     Binding("down", "app.focus_next", "Next", show=False),
     Binding("up", "app.focus_previous", "Before", show=False),
@@ -151,7 +154,8 @@ class Steps(Question):
 
 def _line(answer: Answer) -> str:
     key = "Esc" if answer.word == GO_BACK else answer.word[0]
-    return f" {key:<4}{answer.word}{f', {answer.effect}' if answer.effect else ''}"
+    words = f" {key:<4}{answer.word}{f', {answer.effect}' if answer.effect else ''}"
+    return fill(words, ANSWER_WIDTH, subsequent_indent=" " * 5)
 
 
 class Phrase(Dialog[str]):

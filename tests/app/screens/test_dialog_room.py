@@ -25,6 +25,20 @@ async def test_a_question_with_many_lines_shows_all_its_answers_at_60x20() -> No
         assert options.region.height >= 3
 
 
+async def test_the_second_line_of_an_answer_begins_below_its_word() -> None:
+    answers = [Answer("DISCARD", "kept as a backup; Ctrl+O lists it")]
+    async with operator("pocket") as user:
+        user.app.push_screen(Question("UNSAVED WORK FOUND", ["No name, 1 edit."], answers, "GO BACK"))
+        await user.settle()
+        options = user.app.screen.query_one(OptionList)
+        rows = ["".join(segment.text for segment in options.render_line(y)).rstrip() for y in range(3)]
+        assert rows == [
+            " D   DISCARD, kept as a backup; Ctrl+O lists",
+            "     it",
+            " Esc GO BACK, nothing changes",
+        ]
+
+
 async def test_a_too_small_terminal_is_reported_and_takes_numbers() -> None:
     async with operator("pocket", (40, 12)) as user:
         await user.press("tab")
