@@ -184,9 +184,7 @@ class ContourScreen(BlockActions, FormScreen):
 
     def _made_form(self, session: Session) -> Form:
         self._form = form_at(session)
-        form = Form(cells_at(session), classes="fields")
-        self._forms[self._form] = form
-        return form
+        return self._forms.setdefault(self._form, Form(cells_at(session), classes="fields"))
 
     def form(self) -> Form:
         """Return the form of the segment with the cursor."""
@@ -492,12 +490,11 @@ class ContourScreen(BlockActions, FormScreen):
 
     def _or_later(self, finding: Finding) -> str:
         """Return a hint that the next segment may determine this one; empty if it does not apply."""
-        session = self.current_session
-        last = session.segment is not None and session.place.segment == len(session.block.segments)
-        waits = finding.code == "MISSING" and last and not run_stops(session)
-        return (
-            f" {LATER_PROMPT}" if waits and session.segment is not None and not edit.is_empty(session.segment) else ""
-        )
+        session, segment = self.current_session, self.current_session.segment
+        last = session.place.segment == len(session.block.segments)
+        if finding.code != "MISSING" or not last or segment is None or edit.is_empty(segment) or run_stops(session):
+            return ""
+        return f" {LATER_PROMPT}"
 
     def _run_sentence(self, prompt: str, field: Field | None = None) -> Sentence | None:
         """Return why this segment's run has no answer, with the prompt if there is room.

@@ -20,6 +20,12 @@ from app.widgets.plain import PlainLabel
 from app.widgets.softkeys import Softkey
 
 
+def entry_keys(verb: str, *others: Softkey) -> tuple[Softkey | None, ...]:
+    """Return the softkeys of such a screen: what Enter does too, others if there are any, and BACK."""
+    rest = (*others, *(None,) * 6)[:6]
+    return (Softkey(verb, "enter", verb), *rest, Softkey("BACK", "app.back", "BACK"))
+
+
 class EntryScreen(BaseScreen):
     """A title, an input line, and below it whatever the subclass adds.
 
@@ -111,11 +117,7 @@ class SaveAsScreen(EntryScreen):
     PROMPT: ClassVar[str] = "Name of the program file, Enter saves. Without a folder it goes beside the open program."
     GUIDE: ClassVar[str] = SAVE_NAME
     SHOWS_STATE_OF_BELOW: ClassVar[bool] = True
-    SOFTKEYS: ClassVar[tuple[Softkey | None, ...]] = (
-        Softkey("SAVE", "enter", "SAVE"),
-        *(None,) * 6,
-        Softkey("BACK", "app.back", "BACK"),
-    )
+    SOFTKEYS: ClassVar[tuple[Softkey | None, ...]] = entry_keys("SAVE")
 
     def entered(self, text: str) -> None:
         """Save under this name."""
@@ -127,11 +129,7 @@ class OpenPathScreen(EntryScreen):
 
     TITLE: ClassVar[str] = "OPEN A PATH"
     PROMPT: ClassVar[str] = "Path of a program (.toml), an NC file, a drawing (.dxf), or a folder. Enter opens it."
-    SOFTKEYS: ClassVar[tuple[Softkey | None, ...]] = (
-        Softkey("OPEN", "enter", "OPEN"),
-        *(None,) * 6,
-        Softkey("BACK", "app.back", "BACK"),
-    )
+    SOFTKEYS: ClassVar[tuple[Softkey | None, ...]] = entry_keys("OPEN")
 
     def entered(self, text: str) -> None:
         """Open the file, or show the folder."""

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
-from typing import ClassVar
+from typing import ClassVar, Final
 
 from textual import work
 from textual.app import ComposeResult
@@ -14,7 +14,7 @@ from app.documents.paths import path_of_text
 from app.documents.questions import Answer
 from app.documents.tool_tables import merged, read_table, tool_line
 from app.screens.dialogs import Question
-from app.screens.entry_screen import EntryScreen
+from app.screens.entry_screen import EntryScreen, entry_keys
 from app.session.messages import Tone
 from app.widgets.plain import PlainText
 from app.widgets.softkeys import Softkey
@@ -23,6 +23,7 @@ from core.program.file.read import StoreError
 from core.program.model import Program, Tool
 from core.units import Unit
 
+UNIT_NAMES: Final = {Unit.IN: "INCH", Unit.MM: "MM"}
 MAX_LISTED: int = 2
 """Most changed tools that the question lists."""
 
@@ -32,11 +33,8 @@ class ImportToolsScreen(EntryScreen):
 
     TITLE: ClassVar[str] = "IMPORT TOOL TABLE"
     PROMPT: ClassVar[str] = "Name of a LinuxCNC tool table, Enter reads it. F2 changes the units of its lengths."
-    SOFTKEYS: ClassVar[tuple[Softkey | None, ...]] = (
-        Softkey("IMPORT", "enter", "IMPORT"),
-        Softkey("CHANGE TABLE UNITS", "other_unit", "UNITS"),
-        *(None,) * 5,
-        Softkey("BACK", "app.back", "BACK"),
+    SOFTKEYS: ClassVar[tuple[Softkey | None, ...]] = entry_keys(
+        "IMPORT", Softkey("CHANGE TABLE UNITS", "other_unit", "UNITS")
     )
 
     def __init__(self, text: str, unit: Unit) -> None:
@@ -45,21 +43,13 @@ class ImportToolsScreen(EntryScreen):
 
     def compose_rest(self) -> ComposeResult:
         """Yield the unit and the errors."""
-        yield PlainText(id="table-unit")
+        yield PlainText(f" TABLE UNITS: {UNIT_NAMES[self.unit]}", id="table-unit")
         yield PlainText(id="table-faults")
-
-    def on_mount(self) -> None:
-        """Show the unit."""
-        self._show_unit()
-
-    def _show_unit(self) -> None:
-        name = "INCH" if self.unit is Unit.IN else "MM"
-        self.query_one("#table-unit", Static).update(Content(f" TABLE UNITS: {name}"))
 
     def action_other_unit(self) -> None:
         """Switch the unit of the table's lengths."""
         self.unit = Unit.MM if self.unit is Unit.IN else Unit.IN
-        self._show_unit()
+        self.query_one("#table-unit", Static).update(f" TABLE UNITS: {UNIT_NAMES[self.unit]}")
 
     @work(exclusive=True, group="question")
     async def entered(self, text: str) -> None:

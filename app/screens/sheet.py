@@ -12,7 +12,7 @@ from textual.containers import VerticalScroll
 from textual.content import Content
 from textual.widgets import Input, Static
 
-from app.screens.entry_screen import EntryScreen
+from app.screens.entry_screen import EntryScreen, entry_keys
 from app.session.posting import setup_sheet
 from app.session.session import Session
 from app.widgets.plain import PlainText
@@ -25,12 +25,10 @@ class SheetScreen(EntryScreen):
 
     TITLE: ClassVar[str] = "SETUP SHEET"
     PROMPT: ClassVar[str] = "Name of the sheet, Enter writes it: .html with drawing, .txt text. Page Down: read on."
-    SOFTKEYS: ClassVar[tuple[Softkey | None, ...]] = (
-        Softkey("WRITE", "enter", "WRITE"),
+    SOFTKEYS: ClassVar[tuple[Softkey | None, ...]] = entry_keys(
+        "WRITE",
         Softkey("PAGE WITH DRAWING", "ending('.html')", "PAGE"),
         Softkey("AS TEXT", "ending('.txt')", "TEXT"),
-        *(None,) * 4,
-        Softkey("BACK", "app.back", "BACK"),
     )
 
     def compose_rest(self) -> ComposeResult:

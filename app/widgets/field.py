@@ -126,12 +126,15 @@ class NumberField(LineInput):
 
     def restore(self) -> None:
         """Discard what has been typed."""
-        text = self.full if self.has_focus else self.resting
+        self._put(self.full if self.has_focus else self.resting)
+        if self.has_focus:
+            self.select_all()
+
+    def _put(self, text: str) -> None:
+        """Show a text that nobody has typed."""
         if self.value != text:
             with self.prevent(Input.Changed):
                 self.value = text
-        if self.has_focus:
-            self.select_all()
 
     def on_mouse_up(self) -> None:
         """Select the value at the first click, as when a key brings the cursor; later clicks go into the text."""
@@ -142,15 +145,13 @@ class NumberField(LineInput):
     def on_focus(self) -> None:
         """Show every digit while the field has the cursor."""
         self._untouched = True
-        if self.value == self.resting != self.full:
-            with self.prevent(Input.Changed):
-                self.value = self.full
+        if self.value == self.resting:
+            self._put(self.full)
 
     def on_blur(self) -> None:
         """Show the digits of the form again."""
-        if not self.edited and self.value != self.resting:
-            with self.prevent(Input.Changed):
-                self.value = self.resting
+        if not self.edited:
+            self._put(self.resting)
 
     def render_line(self, y: int) -> Strip:
         """Return the text right-aligned, with a cell for the cursor while the field has it.
