@@ -217,14 +217,9 @@ class _OpenDocument:
 
     def leave_journal(self, now: str) -> None:
         """Close the journal of unsaved work; try once more to write what failed before, as the disk may have room."""
-        try:
-            if self.journal is not None and (self.rewrite or self.journal.lost()):
-                self.begin(now)
-            elif self.journal is not None and self.journal.unwritten:
-                self.journal.add(())
-        except OSError:
-            self._begin_elsewhere(now)
         if self.journal is not None:
+            with suppress(OSError, StoreError):
+                self.write(self.latest, now)
             self.journal.close()
 
 
