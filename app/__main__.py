@@ -55,6 +55,7 @@ def _parsed(given: list[str]) -> int:
     import argparse
 
     from app.documents.programs import examples
+    from app.terminal.capabilities import CHARACTER_SETS
 
     parser = argparse.ArgumentParser(
         "cutcomp",
@@ -78,7 +79,7 @@ def _parsed(given: list[str]) -> int:
     parser.add_argument("--example", nargs="?", const="pocket", choices=names, help="open an example part")
     parser.add_argument(
         "--characters",
-        choices=("braille", "block", "ascii"),
+        choices=CHARACTER_SETS,
         default="",
         help="draw with these; by itself braille, half blocks on the Linux console, ASCII where LANG names no UTF-8",
     )

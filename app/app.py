@@ -29,6 +29,7 @@ from app.session.block_findings import Entry
 from app.session.messages import Tone
 from app.session.posting import CENTER_PATH
 from app.session.session import Session
+from app.terminal.capabilities import CHARACTER_SETS
 from app.terminal.driver import has_mouse, redraw, take_mouse
 from app.terminal.split_keys import KEY_WARNINGS
 from app.transform_actions import TransformActions
@@ -85,7 +86,7 @@ class CutcompApp(TransformActions):
         surroundings: Surroundings | None = None,
         few_colors: bool = False,
         light: bool = False,
-        character_sets: tuple[str, ...] = ("braille", "block", "ascii"),
+        character_sets: tuple[str, ...] = CHARACTER_SETS,
         service: DocumentService | None = None,
         opened: Opened[Any] | None = None,
         settings_file: SettingsFile | None = None,

@@ -16,7 +16,7 @@ from app.screens.base import BaseScreen
 from app.screens.contour import ContourScreen
 from app.session.messages import TableRowsJudged, Tone
 from app.session.session import Session
-from app.session.work import SECONDS_BEFORE_PROGRESS, Work, advised, derived, lookahead_table, while_wanted
+from app.session.work import SECONDS_BEFORE_PROGRESS, Work, advised, derived, while_wanted
 from core.pipeline.derived import DerivedBlock
 from core.program.model import Program
 from core.progress import Stopped
@@ -169,11 +169,15 @@ class DerivationActions(App[int]):
 
     @work(exclusive=True, group="table", description="table")
     async def _make_table_in_thread(self, block: DerivedBlock, program: Program) -> None:
+        # loaded by now: the block is complete
+        from core.pipeline.derive import look_ahead_table
+
         def report_rows(rows: tuple[Row, ...]) -> None:
             self.post_message(TableRowsJudged(block, rows))
 
         with suppress(Stopped), self.working(self._calculation_stopped) as work:
-            self._show_table(block, await to_thread(lookahead_table, block, program, report_rows, work))
+            table = await to_thread(look_ahead_table, block, program, progress=work, report_rows=report_rows)
+            self._show_table(block, table)
             self._advise_later()
 
     @on(TableRowsJudged)

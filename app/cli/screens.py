@@ -18,7 +18,6 @@ from app.documents.document_service import DocumentService, Notice, Opened, Trou
 from app.documents.nc_text import NC_SUFFIXES
 from app.documents.paths import is_drawing, is_folder, program_named
 from app.documents.programs import empty_program, is_nc
-from app.documents.programs import example as example_file
 from app.documents.settings import SettingsFile, load_settings, settings_file
 from app.documents.time_limits import EXIT_SECONDS
 
@@ -97,7 +96,7 @@ def in_browser() -> bool:
 def begin(service: DocumentService, path: Path | None, example: str | None) -> Opened[Any] | Trouble:
     """Return the document to begin with, or the trouble with it."""
     if example is not None:
-        return service.open(example_file(example))
+        return service.example(example)
     if path is not None and path.suffix.lower() in NC_SUFFIXES and not path.exists():
         return Trouble(f"{path}: there is no such NC program.")
     return service.new(offers=True) if path is None else service.open(program_named(path))

@@ -15,7 +15,7 @@ from core.program.model import Program
 from core.progress import Progress, Stopped, silent
 
 if TYPE_CHECKING:
-    from core.advice.lookahead_table import Row, Table
+    from core.advice.lookahead_table import Table
 
 SECONDS_BEFORE_PROGRESS: Final = 0.3
 """Seconds after which the progress of work is shown."""
@@ -77,18 +77,6 @@ def derived(program: Program, progress: Progress = silent) -> Derived:
     from core.pipeline.derive import derive
 
     return derive(program, progress)
-
-
-def lookahead_table(
-    block: DerivedBlock, program: Program, report_rows: Callable[[tuple[Row, ...]], None], progress: Progress = silent
-) -> Table | None:
-    """Return the effect of every look-ahead value on a block; None if there is nothing to compensate.
-
-    Call `report_rows` with all rows so far whenever some are complete.
-    """
-    from core.pipeline.derive import look_ahead_table
-
-    return look_ahead_table(block, program, progress, report_rows)
 
 
 def advised(block: DerivedBlock, program: Program, table: Table, progress: Progress) -> Iterator[Table]:

@@ -14,6 +14,7 @@ import app.derivation_actions as app_module
 import app.nc_proof.compare_controls as dialogs_module
 import app.nc_proof.runs as proof_module
 import app.screens.post as post_module
+import core.pipeline.derive as derive_module
 from app.documents.document import NcDocument
 from app.documents.nc_text import NcText
 from app.session import work
@@ -36,11 +37,11 @@ class Slow:
 
     def __init__(self, monkeypatch, module, name):
         self.real, self.go, self.stopped = getattr(module, name), Event(), False
-        self.arguments: tuple[Any, ...] = ()
+        self.options: dict[str, Any] = {}
         monkeypatch.setattr(module, name, self)
 
-    def __call__(self, *arguments, progress=None):
-        self.arguments = arguments
+    def __call__(self, *arguments, progress=None, **options):
+        self.options = options
         report = progress or arguments[-1]
         while not self.go.is_set():
             try:
@@ -49,7 +50,7 @@ class Slow:
                 self.stopped = True
                 raise
             sleep(0.005)
-        return self.real(*arguments) if progress is None else self.real(*arguments, progress=progress)
+        return self.real(*arguments) if progress is None else self.real(*arguments, progress=progress, **options)
 
 
 def status(user: Operator) -> str:
@@ -106,7 +107,7 @@ async def test_an_abandoned_half_typed_number_leaves_the_program_calculated(monk
 
 async def test_a_stopped_look_ahead_table_is_made_on_request(monkeypatch):
     async with operator() as user:
-        slow = Slow(monkeypatch, app_module, "lookahead_table")
+        slow = Slow(monkeypatch, derive_module, "look_ahead_table")
         await user.send(*["tab"] * 4, "2", ".", "1", "enter")
         await until_status_shows(user, "working 40 %, Esc stops")
         await user.press("escape")
@@ -121,12 +122,12 @@ async def test_a_stopped_look_ahead_table_is_made_on_request(monkeypatch):
 async def test_the_strip_shows_the_values_that_are_judged_while_the_others_are_not(monkeypatch):
     async with operator() as user:
         rows = user.session.lookahead_table.rows
-        slow = Slow(monkeypatch, app_module, "lookahead_table")
+        slow = Slow(monkeypatch, derive_module, "look_ahead_table")
         await user.send(*["tab"] * 4, "2", ".", "1", "enter")
         await until_status_shows(user, "working 40 %, Esc stops")
         strip = user.screen.query_one("#strip", Static)
         assert "✖" not in str(strip.content)
-        slow.arguments[2](rows[:1])
+        slow.options["report_rows"](rows[:1])
         while "✖" not in str(strip.content):
             await user.pilot.pause(0.01)
         slow.go.set()
