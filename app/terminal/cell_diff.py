@@ -16,7 +16,7 @@ from collections import Counter
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass, field
 from functools import lru_cache
-from itertools import compress
+from itertools import compress, groupby
 from operator import ne
 from typing import Final, NamedTuple
 
@@ -97,29 +97,6 @@ def alike_on_blanks(now: Style, then: Style) -> bool:
     return not visible and now.paper == then.paper
 
 
-@dataclass(slots=True)
-class Pen:
-    """What goes to the terminal, and the style in force."""
-
-    now: Style = PLAIN_STYLE
-    out: list[str] = field(default_factory=list)
-
-    def has(self, text: str, wanted: Style) -> bool:
-        """True if this text can be written without a change of style."""
-        return self.now == wanted or (text.isspace() and alike_on_blanks(self.now, wanted))
-
-    def write(self, text: str, wanted: Style) -> None:
-        """Write text in a style."""
-        if not self.has(text, wanted):
-            self.turn(wanted)
-        self.out.append(text)
-
-    def turn(self, wanted: Style) -> None:
-        """Change to another style."""
-        self.out.append(style_change(self.now, wanted))
-        self.now = wanted
-
-
 class Cell(NamedTuple):
     """A character and its style; for a blank only what shows on a blank."""
 
@@ -177,8 +154,8 @@ class TerminalCells:
             known[row] = line
         writer.move(*cursor)
         self.cursor = cursor
-        writer.pen.turn(PLAIN_STYLE)
-        return "".join(writer.pen.out)
+        writer.turn(PLAIN_STYLE)
+        return "".join(writer.out)
 
     def _drop_known(self) -> None:
         # cleared first: a `forget` from here on takes effect at the next write
@@ -203,19 +180,11 @@ _styled: Final = lru_cache(256)(Cells)
 
 def neighbors(line: Line, columns: list[int]) -> Iterator[tuple[int, str, Style]]:
     """Yield the cells in these columns: adjacent ones in one style as one text, with its first column."""
-    first, text, style, next_column = 0, "", PLAIN_STYLE, -1
-    for column in columns:
-        cell = line[column]
-        assert cell is not None
-        if column == next_column and (cell.style is style or cell.style == style):
-            text += cell.text
-        else:
-            if text:
-                yield first, text, style
-            first, (text, style) = column, cell
-        next_column = column + 1
-    if text:
-        yield first, text, style
+    # the difference of column and place stays the same as long as no column is left out
+    cells = [(column - place, column, cell) for place, column in enumerate(columns) if (cell := line[column])]
+    for (_, style), run in groupby(cells, lambda each: (each[0], each[2].style)):
+        together = list(run)
+        yield together[0][1], "".join([cell.text for _, _, cell in together]), style
 
 
 def parse_paint(data: str, columns: int, lines: list[Line]) -> tuple[dict[int, Line], tuple[int, int] | None]:
@@ -251,12 +220,28 @@ def is_single_cell(text: str) -> bool:
 
 @dataclass(slots=True)
 class CellWriter:
-    """Writes cells; holds the cursor's position and what goes to the terminal."""
+    """Writes cells; holds the cursor's position, the style in force, and what goes to the terminal."""
 
     cursor: tuple[int, int] | None
     columns: int
     erases: bool
-    pen: Pen = field(default_factory=Pen)
+    now: Style = PLAIN_STYLE
+    out: list[str] = field(default_factory=list)
+
+    def has(self, text: str, wanted: Style) -> bool:
+        """True if this text can be written without a change of style."""
+        return self.now == wanted or (text.isspace() and alike_on_blanks(self.now, wanted))
+
+    def write(self, text: str, wanted: Style) -> None:
+        """Write text in a style."""
+        if not self.has(text, wanted):
+            self.turn(wanted)
+        self.out.append(text)
+
+    def turn(self, wanted: Style) -> None:
+        """Change to another style."""
+        self.out.append(style_change(self.now, wanted))
+        self.now = wanted
 
     def line(self, row: int, old: Line, new: Line) -> None:
         """Write the cells of a line that differ; an unknown line is erased first."""
@@ -268,7 +253,7 @@ class CellWriter:
         written = [column for column in changed if column < tail] if erased else changed
         for column, text, style in neighbors(new, written):
             self._reach(row, column, new)
-            self.pen.write(text, style)
+            self.write(text, style)
             self._advance(row, column + len(text))
         if erased and (last := new[-1]) is not None:
             self._erase(row, tail, last)
@@ -281,7 +266,7 @@ class CellWriter:
         if self.cursor is not None and self.cursor[0] == row and column > self.cursor[1]:
             steps = column - self.cursor[1]
             sequences.append(f"\x1b[{steps if steps > 1 else ''}C")
-        self.pen.out.append(min(sequences, key=len))
+        self.out.append(min(sequences, key=len))
         self.cursor = row, column
 
     def _reach(self, row: int, column: int, line: Line) -> None:
@@ -294,8 +279,8 @@ class CellWriter:
         between = [cell for cell in line[self.cursor[1] : column] if cell is not None]
         text = "".join([cell.text for cell in between])
         short = len(text.encode()) <= (3 if len(between) == 1 else 4)
-        if between and short and all(self.pen.has(*cell) for cell in between):
-            self.pen.out.append(text)
+        if between and short and all(self.has(*cell) for cell in between):
+            self.out.append(text)
             self._advance(row, column)
         else:
             self.move(row, column)
@@ -323,9 +308,9 @@ class CellWriter:
     def _erase(self, row: int, column: int, blank: Cell) -> None:
         """Erase to the end of the line."""
         self.move(row, column)
-        if not alike_on_blanks(self.pen.now, blank.style):
-            self.pen.turn(blank.style)
-        self.pen.out.append(ERASE_LINE)
+        if not alike_on_blanks(self.now, blank.style):
+            self.turn(blank.style)
+        self.out.append(ERASE_LINE)
 
     def _erasable(self, style: Style) -> bool:
         return self.erases or style.paper == PLAIN_STYLE.paper

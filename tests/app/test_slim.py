@@ -9,7 +9,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from app.terminal.cell_diff import PLAIN_STYLE, TOKEN, Pen, style_change, style_of
+from app.terminal.cell_diff import PLAIN_STYLE, TOKEN, CellWriter, style_change, style_of
 
 STYLES = ("1", "3", "4", "7", "31", "92", "45", "103", "38;5;188;48;5;16", "1;38;2;1;2;3;48;2;4;5;6", "39;49", "0", "")
 TEXTS = ("X", " ", "   ", "word", "│ ", "1.5 ", "é", "\r\n")
@@ -41,7 +41,7 @@ def _seen(cell: Any) -> tuple[Any, ...]:
 
 def slim(data: str) -> str:
     """The same text written with a pen, in plain style at its beginning and end."""
-    pen = Pen()
+    pen = CellWriter(None, 0, erases=False)
     wanted = PLAIN_STYLE
     for style, place, other, text in TOKEN.findall(data):
         if text:
