@@ -101,10 +101,6 @@ class _OpenDocument:
     copy: Path | None = None
     answered: set[Path] = field(default_factory=set)
 
-    def remember(self, document: AnyDocument) -> AnyDocument:
-        self.latest = document
-        return document
-
     # ---- the lock
 
     def take_lock(self, now: str) -> Owner | None:
@@ -332,7 +328,7 @@ class DocumentService:
         entry = self._entry(document)
         holder = entry.take_lock(self.clock())
         if holder is not None:
-            document = entry.remember(replace(document, file=replace(document.file, holder=holder)))
+            document = entry.latest = replace(document, file=replace(document.file, holder=holder))
             return Opened(document, notice, Offer(questions.open_already(holder, self.clock()), kept_copy))
         if document.file.path is not None and document.file.stamp is not None:
             files.remove_killed_saves(document.file.path)
@@ -416,7 +412,7 @@ class DocumentService:
             return Opened(document, Notice("It cannot be taken over: the file is of another kind now.", warning=True))
         entry.lock = lock
         state = replace(fresh.file, opening=document.file.opening)
-        taken = entry.remember(replace(fresh, file=state))
+        taken = entry.latest = replace(fresh, file=state)
         opened = self._next_offer(taken, kept_copy)
         notice = opened.notice or Notice(f"{name_of(taken)} is yours now.")
         return Opened(opened.document, notice, opened.offer)
@@ -428,7 +424,7 @@ class DocumentService:
         now = document.file
         stamp = journal.stamp if now.stamp is not None else None
         work = document.restored(journal)
-        work = entry.remember(replace(work, file=replace(now, stamp=stamp)))
+        work = entry.latest = replace(work, file=replace(now, stamp=stamp))
         try:
             aside = self._journal_of_restored(entry, work, path, journal)
         except (OSError, StoreError) as error:
@@ -622,15 +618,16 @@ class DocumentService:
         before = document.file
         agreed = (before.link_agreed and path == before.path) or (link_agreed and _leads_elsewhere(path))
         state = replace(before, path=path, stamp=files.stamp_of_data(data), link_agreed=agreed)
-        saved = entry.remember(document.saved(state, document))
+        saved = entry.latest = document.saved(state, document)
         entry.drop_journal()
         entry.rewrite = entry.failing = entry.away = False
         if path != before.path:
             entry.release_lock()
             entry.warned = False
-            saved = entry.remember(replace(saved, file=replace(state, holder=entry.take_lock(self.clock()))))
-        reason = f", in place: {in_place}" if in_place else ""
-        text = f"Saved: {paths.written_path(path)}{reason}{_unread_note(saved)}"
+            saved = entry.latest = replace(saved, file=replace(state, holder=entry.take_lock(self.clock())))
+        text = f"Saved: {paths.written_path(path)}{f', in place: {in_place}' if in_place else ''}"
+        if isinstance(saved, ContourDocument) and any(unread_texts(saved.program)):
+            text += ", what is marked ERR as it was typed."
         if theirs is not None:
             text = f"{text.removesuffix('.')}. The other version is in {whole_name(theirs)}."
         return Saved(saved, Notice(text))
@@ -694,13 +691,6 @@ def _kept_for(user: str, time: str, path: Path, today: str) -> str:
     """Return the sentence for users who are not asked about the work."""
     when = times.in_words(time, today)
     return f"Unsaved work of {printable(user)}, {when}, is kept in {whole_name(path)}; Ctrl+O lists it."
-
-
-def _unread_note(document: Document) -> str:
-    """Return the end of a sentence that says that unreadable texts are saved too, empty if there are none."""
-    if isinstance(document, ContourDocument) and any(unread_texts(document.program)):
-        return ", what is marked ERR as it was typed."
-    return ""
 
 
 def _reason(error: OSError | ValueError | StoreError) -> str:

@@ -29,16 +29,11 @@ def called_program(folder: Path | None, program: int | str) -> tuple[str, bytes]
     if folder is None:
         return None
     with suppress(OSError, ValueError):
-        path = _labeled(folder, program) if isinstance(program, str) else _numbered(folder, program)
-        if path is not None:
+        path = folder / f"{program}.ngc" if isinstance(program, str) else _numbered(folder, program)
+        # a label must not lead to another folder
+        if path is not None and path.parent == folder and path.is_file():
             return plain(path.name), read_file(path, MAX_NC_BYTES)[0]
     return None
-
-
-def _labeled(folder: Path, label: str) -> Path | None:
-    """Return the file named by a label; None if the label leads to another folder or there is no such file."""
-    path = folder / f"{label}.ngc"
-    return path if path.parent == folder and path.is_file() else None
 
 
 def _numbered(folder: Path, number: int) -> Path | None:

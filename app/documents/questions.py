@@ -120,25 +120,26 @@ def _unsaved_sentence(document: Document) -> str:
 # ---- before a file is written
 
 
-def _write_outside(path: Path, file: Path | None, holder: Owner | None) -> QuestionText:
-    """Ask once before a file outside the chosen folder is written; the lines say what would be replaced there."""
-    target = Path(os.path.realpath(path))
-    whose = "current" if file is None else "program's"
-    lines = [f"{printable_path(target)} is not in the {whose} folder,", f"{printable_path(folder(file))}."]
-    if path.is_symlink():
-        lines.append(f"{printable_path(path)} leads there.")
-    lines += _replaced(target, holder) if target.exists() else []
-    return QuestionText("WRITE IN ANOTHER FOLDER?", tuple(lines), (Answer(WRITE_THERE),))
-
-
 def before_writing(path: Path, file: Path | None, holder: Owner | None = None) -> QuestionText | None:
     """Ask before anything is written into another folder or over an existing file; None if neither.
 
-    `holder` has the file open.
+    The lines say what would be replaced; `holder` has the file open.
     """
+    target = Path(os.path.realpath(path))
+    replaced = ["Its content is replaced." if target.exists() else "It leads nowhere."]
+    replaced += [] if holder is None else [f"{person(holder)} has it open."]
     if is_outside_folder(path, file):
-        return _write_outside(path, file, holder)
-    return _replace_file(path, holder) if os.path.lexists(path) else None
+        whose = "current" if file is None else "program's"
+        lines = [f"{printable_path(target)} is not in the {whose} folder,", f"{printable_path(folder(file))}."]
+        lines += [f"{printable_path(path)} leads there."] if path.is_symlink() else []
+        lines += replaced if target.exists() else []
+        return QuestionText("WRITE IN ANOTHER FOLDER?", tuple(lines), (Answer(WRITE_THERE),))
+    if os.path.lexists(path):
+        where = f", which leads to {printable_path(target)}" if path.is_symlink() else ""
+        first, *rest = replaced
+        lines = [f"{printable_path(path)}{where} exists. {first}", *rest]
+        return QuestionText("REPLACE THE FILE?", tuple(lines), (Answer(REPLACE),))
+    return None
 
 
 def write_through_link(path: Path) -> QuestionText:
@@ -146,19 +147,6 @@ def write_through_link(path: Path) -> QuestionText:
     target = printable_path(os.path.realpath(path))
     line = f"{printable_path(path)} is a link to {target} in another folder."
     return QuestionText("WRITE IN ANOTHER FOLDER?", (line,), (Answer(WRITE_THERE),))
-
-
-def _replace_file(path: Path, holder: Owner | None) -> QuestionText:
-    """Ask before an existing file is replaced."""
-    target = f", which leads to {printable_path(os.path.realpath(path))}" if path.is_symlink() else ""
-    first, *rest = _replaced(path, holder)
-    lines = (f"{printable_path(path)}{target} exists. {first}", *rest)
-    return QuestionText("REPLACE THE FILE?", lines, (Answer(REPLACE),))
-
-
-def _replaced(path: Path, holder: Owner | None) -> list[str]:
-    exists = "Its content is replaced." if path.exists() else "It leads nowhere."
-    return [exists] if holder is None else [exists, f"{person(holder)} has it open."]
 
 
 def taken_over(path: Path, owner: Owner, copy: Path) -> QuestionText:
@@ -208,16 +196,16 @@ def unsaved_work(
     document: Document, journal: Journal, *, mine: bool, me: Owner, living: bool, chosen: bool, today: str
 ) -> QuestionText:
     """Ask whether to restore unsaved work; `chosen`: the operator picked it in the list of kept copies."""
-    owner, path = journal.owner, document.file.path
+    owner, path, now = journal.owner, document.file.path, document.file.stamp
     name = "No name" if path is None else printable(path.name)
     by = "" if (owner.user, owner.host) == (me.user, me.host) else f" by {person(owner)}"
     count = len(journal.work.past)
     lines = [f"{name}{by}, {times.in_words(journal.time, today)}, {count} edit{'' if count == 1 else 's'}."]
-    if path is not None and document.file.stamp is None and os.path.lexists(path):
+    if path is not None and now is None and os.path.lexists(path):
         lines.append(f"{printable(path.name)} itself cannot be read; it stays as it is.")
-    elif path is not None and document.kind is Kind.NC and document.file.stamp is None:
+    elif path is not None and now is None and document.kind is Kind.NC:
         lines.append("The file is gone. Saving writes it again.")
-    elif _written_since(document, journal):
+    elif now is not None and (journal.stamp is None or not now.same_content(journal.stamp)):
         lines.append("The file was written since: by somebody else, or by this program just before its end.")
     if living and owner != me:
         lines.append("The other terminal may still be in use. It is warned before it saves.")
@@ -232,11 +220,6 @@ def unsaved_work(
     else:
         refusal = Answer(NOT_MINE, "it stays kept for its owner")
     return QuestionText("UNSAVED WORK FOUND", tuple(lines), (Answer(RESTORE), refusal), safe=RESTORE)
-
-
-def _written_since(document: Document, journal: Journal) -> bool:
-    now, then = document.file.stamp, journal.stamp
-    return document.file.path is not None and now is not None and (then is None or not now.same_content(then))
 
 
 def unreadable_work(document: Document, path: Path, left: UnreadableWork, today: str) -> QuestionText:

@@ -101,7 +101,8 @@ def unsaved_work_on(file: Path | None, kind: Kind, state: Path) -> Iterator[tupl
     Skip what was discarded, and what was set aside from a running process unless that wrote more and has died.
     """
     unnamed = f"unnamed-*{JOURNAL_SUFFIX}"
-    for path in (path for _, path in newest_first(state.glob(unnamed))) if file is None else journals_of(file, state):
+    paths = journals_of(file, state) if file is not None else (path for _, path in newest_first(state.glob(unnamed)))
+    for path in paths:
         left = left_at(path, kind)
         living = left is not None and left.owner is not None and alive(left.owner)
         if left is not None and not (living and (file is None or reason_set_aside(path))):
@@ -190,18 +191,12 @@ def left_at(path: Path, kind: Kind | None) -> Journal | UnreadableWork | None:
     if journal is not None and kind in (None, journal.kind):
         return journal
     hidden, what = isinstance(refused, PermissionError), refused.what if isinstance(refused, NotAFileError) else ""
-    user, time = login(status.st_uid), times.of_file(status.st_mtime_ns)
-    return UnreadableWork(user, time, hidden, status.st_uid == os.getuid(), what, owner_in_another_version(data))
-
-
-def login(number: int) -> str:
-    """Return the name of a login, or its number if it has none."""
-    from pwd import getpwuid
-
     try:
-        return getpwuid(number).pw_name
-    except KeyError:
-        return str(number)
+        user = path.owner()
+    except (OSError, KeyError):
+        user = str(status.st_uid)
+    time = times.of_file(status.st_mtime_ns)
+    return UnreadableWork(user, time, hidden, status.st_uid == os.getuid(), what, owner_in_another_version(data))
 
 
 # ---- kept copies
