@@ -76,8 +76,8 @@ class Worker(Generic[Result]):
         Raise DrawingError if the function raised it, the time limit has passed, or the process has died.
         """
         try:
-            if self._receiver.poll(min(wait, max(self._deadline - time.monotonic(), 0.0))):
-                return self._received(self._receiver.recv())
+            arrived = self._receiver.poll(min(wait, max(self._deadline - time.monotonic(), 0.0)))
+            message = self._receiver.recv() if arrived else None
         except (EOFError, OSError) as error:
             # a process that has closed its pipe ends by itself, with its own exit code
             self._process.join(EXIT_WAIT)
@@ -86,18 +86,13 @@ class Worker(Generic[Result]):
             if killed:
                 raise DrawingError("TOO_MUCH", "Reading the drawing was ended, perhaps for want of memory.") from error
             raise DrawingError("FAILED", "Reading the drawing failed: cutcomp has an error. Report it.") from error
-        if time.monotonic() >= self._deadline:
+        if not arrived and time.monotonic() >= self._deadline:
+            message = DrawingError("TOO_MUCH", f"Reading the drawing takes longer than {self._limit:g} s.")
+        if message is not None and not isinstance(message, Progress):
             self.cancel()
-            raise DrawingError("TOO_MUCH", f"Reading the drawing takes longer than {self._limit:g} s.")
-        return None
-
-    def _received(self, message: object) -> Progress | Result:
-        if isinstance(message, Progress):
-            return message
-        self.cancel()
         if isinstance(message, DrawingError):
             raise message
-        return cast("Result", message)
+        return cast("Progress | Result | None", message)
 
     def cancel(self) -> None:
         """End the process, whatever it is doing."""

@@ -121,7 +121,12 @@ def load(path: str | Path) -> Program:
     try:
         return loads_bytes(data, str(path))
     except StoreError as error:
-        if holds_program(data) or not (kind := _other_kind(path)):
+        kind = ""
+        if is_drawing(path):
+            kind = "a drawing, not a contour program. cutcomp import makes one of it."
+        elif path.suffix.lower() in NC_SUFFIXES - {".txt"}:
+            kind = "an NC program, not a contour program. cutcomp check tells what the controls do with it."
+        if holds_program(data) or not kind:
             raise
         raise StoreError(f"{path} is {kind}") from error
 
@@ -129,15 +134,6 @@ def load(path: str | Path) -> Program:
 def holds_program(data: bytes) -> bool:
     """True if a file's content, or its beginning, is that of a contour program."""
     return _PROGRAM.match(data[:SEARCHED_BYTES]) is not None
-
-
-def _other_kind(path: Path) -> str:
-    """Return what a file's name says it is, and which command reads it; empty if it may be a contour program."""
-    if is_drawing(path):
-        return "a drawing, not a contour program. cutcomp import makes one of it."
-    if path.suffix.lower() in NC_SUFFIXES - {".txt"}:
-        return "an NC program, not a contour program. cutcomp check tells what the controls do with it."
-    return ""
 
 
 def load_from(stream: BinaryIO, name: str) -> Program:

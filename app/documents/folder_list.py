@@ -72,7 +72,14 @@ def facts_of(path: Path, known: Facts | None = None) -> Facts:
         facts, program = within(FILE_SECONDS, lambda: _read(path, known))
     except TimeoutError as error:
         return Facts(path, outcome=Outcome.UNREADABLE, trouble=f"{path.name}: {error}.")
-    return facts if program is None else _judged(facts, program)
+    if program is None:
+        return facts
+    # imported here, since the first paint needs neither numpy nor shapely
+    from core.pipeline.derive import derive
+
+    outcomes = map(outcome_of, derive(program).blocks)
+    gravest = min(outcomes, key=list(Outcome).index, default=Outcome.EMPTY)
+    return replace(facts, blocks=str(len(program.blocks)), tools=_tools(program), outcome=gravest)
 
 
 def _read(path: Path, known: Facts | None) -> tuple[Facts, Program | None]:
@@ -116,15 +123,6 @@ def _without_file(path: Path) -> Facts:
 def _not_saved(facts: Facts) -> Facts:
     text = "There is unsaved work on this program. Opening it asks whether you want it back."
     return replace(facts, outcome=Outcome.NOT_SAVED, trouble=text)
-
-
-def _judged(facts: Facts, program: Program) -> Facts:
-    # imported here, since the first paint needs neither numpy nor shapely
-    from core.pipeline.derive import derive
-
-    outcomes = map(outcome_of, derive(program).blocks)
-    gravest = min(outcomes, key=list(Outcome).index, default=Outcome.EMPTY)
-    return replace(facts, blocks=str(len(program.blocks)), tools=_tools(program), outcome=gravest)
 
 
 def outcome_of(block: DerivedBlock) -> Outcome:

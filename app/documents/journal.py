@@ -88,14 +88,11 @@ def beginning(journal: Journal) -> Iterator[Record]:
     whose = {"owner": asdict(journal.owner), "file": journal.file, "stamp": stamp}
     end = {"at": journal.place, "time": journal.time}
     yield {"journal": JOURNAL_FORMAT, "kind": journal.kind, **whose, "base": _base(first), **end}
-    yield from continuing([*_redone(first), *({"undo": 1} for _ in journal.work.future)], journal.place, journal.time)
-
-
-def _redone(work: Work) -> Iterator[Record]:
-    """Yield the records of all edits that can be redone."""
-    while work.future:
-        before, work = work, work.redo()
-        yield _edit(before, work)
+    edits = []
+    while first.future:
+        before, first = first, first.redo()
+        edits.append(_edit(before, first))
+    yield from continuing([*edits, *({"undo": 1} for _ in journal.work.future)], journal.place, journal.time)
 
 
 def continuing(records: Iterable[Record], place: Place, time: str) -> Iterator[Record]:
@@ -209,8 +206,11 @@ def _begun(record: Record) -> Journal:
             raise DamagedError
     match record:
         case {"owner": owner, "file": None | str() as file, "stamp": stamp}:
+            if file is not None and (not Path(file).name or b"\0" in os.fsencode(file)):
+                # no file can have this path
+                raise DamagedError
             place, time = _place_of(record), _text_of(record.get("time"))
-            return Journal(owner_of(owner), _path_of(file), _stamp_of(stamp), work, place, time)
+            return Journal(owner_of(owner), file, _stamp_of(stamp), work, place, time)
         case _:
             raise DamagedError
 
@@ -237,9 +237,10 @@ def _done(work: Work, label: str, values: object) -> Work:
         return History(applied(work.program, values), past)
     match values:
         case [int(row), [*removed], [*inserted]]:
-            return work.done(Splice(row, _lines_of(work, removed), _lines_of(work, inserted)))
-        case _:
-            raise DamagedError
+            old, new = (tuple(each for each in texts if isinstance(each, str)) for texts in (removed, inserted))
+            if len(old) + len(new) == len(removed) + len(inserted) and work.takes("".join((*old, *new))):
+                return work.done(Splice(row, old, new))
+    raise DamagedError
 
 
 def applied(program: Program, values: object) -> Program:
@@ -283,13 +284,6 @@ def _unpacked(values: object) -> NcText:
     return replace(text, origin=b"", saved=NEVER_SAVED)
 
 
-def _lines_of(text: NcText, values: list[object]) -> tuple[str, ...]:
-    lines = tuple(value for value in values if isinstance(value, str) and text.takes(value))
-    if len(lines) < len(values):
-        raise DamagedError
-    return lines
-
-
 def _stamp_of(values: object) -> Stamp | None:
     match values:
         case None:
@@ -298,13 +292,6 @@ def _stamp_of(values: object) -> Stamp | None:
             return Stamp(size, time, digest)
         case _:
             raise DamagedError
-
-
-def _path_of(file: str | None) -> str | None:
-    """Return the path; raise DamagedError if no file can have it."""
-    if file is not None and (not Path(file).name or b"\0" in os.fsencode(file)):
-        raise DamagedError
-    return file
 
 
 def _place_of(record: Record) -> Place:
