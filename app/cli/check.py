@@ -143,21 +143,18 @@ def _as_json(answers: Iterator[_Checked]) -> int:
 def _as_text(checked: _Checked, request: CheckRequest) -> int:
     """Print everything about one program, or the table of all controls."""
     status = _status_of(checked)
-    if request.control == "all" and checked.answers:
-        _print_table(checked.answers)
-    elif checked.answers:
-        print(*checking.lines(checked.answers[0]), sep="\n")
-    _print_missing(checked.answers, lines_of(checked.text))
+    answers = checked.answers
+    if request.control == "all" and answers:
+        width = max(len(result.name) for result in answers)
+        outcome = max(len(result.outcome_and_warnings) for result in answers)
+        for result in answers:
+            print(f"{result.name:<{width}}  {result.outcome_and_warnings:<{outcome}}  {result.comparison}".rstrip())
+        for reason in checking.reasons(answers):
+            print(reason)
+    elif answers:
+        print(*checking.lines(answers[0]), sep="\n")
+    _print_missing(answers, lines_of(checked.text))
     return status
-
-
-def _print_table(answers: tuple[Answer, ...]) -> None:
-    width = max(len(result.name) for result in answers)
-    outcome = max(len(result.outcome_and_warnings) for result in answers)
-    for result in answers:
-        print(f"{result.name:<{width}}  {result.outcome_and_warnings:<{outcome}}  {result.comparison}".rstrip())
-    for reason in checking.reasons(answers):
-        print(reason)
 
 
 def _print_missing(answers: tuple[Answer, ...], program: list[str]) -> None:

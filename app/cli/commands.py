@@ -23,9 +23,8 @@ from core.program.tools import table_faults
 from core.units import Unit, located_sentence, segment_name, sentence
 
 if TYPE_CHECKING:
-    from core.advice.lookahead_table import Table
     from core.controls.write.written_program import Refusal
-    from core.pipeline.derived import Derived, DerivedBlock
+    from core.pipeline.derived import Derived
 
 STANDARD_STREAM: Final = "-"
 """Means standard input or standard output in place of a file."""
@@ -96,16 +95,12 @@ def _derived(path: Path, block: int | None = None, lookahead: str | None = None)
     """Return a file's program derived, or only one block of it, with another look-ahead if one is given."""
     from core.pipeline.derive import derive, with_better_paths
 
-    program = _program(path)
+    program = load_from(sys.stdin.buffer, STDIN) if str(path) == STANDARD_STREAM else load(path)
     if block is not None and not 1 <= block <= len(program.blocks):
         has = f"blocks 1 to {len(program.blocks)}" if len(program.blocks) > 1 else "1 block"
         raise Unusable(f"--block {block}: {path} has {has}.")
     derived = with_better_paths(derive(program if lookahead is None else _with_lookahead(program, lookahead)))
     return derived if block is None else replace(derived, blocks=(derived.block(block),))
-
-
-def _program(path: Path) -> Program:
-    return load_from(sys.stdin.buffer, STDIN) if str(path) == STANDARD_STREAM else load(path)
 
 
 def _name(path: Path) -> str:
@@ -150,10 +145,16 @@ def path(options: argparse.Namespace) -> int:
 def lookahead(options: argparse.Namespace) -> int:
     """Run `cutcomp lookahead`, which prints the result of every value, and what the contour needs."""
     from core.pipeline.command_output import table_document, table_listing
+    from core.pipeline.derive import advice_for_block, look_ahead_table
 
     derived = _derived(options.file, options.block)
     unit = derived.program.unit
-    tables = [(block, _annotated(block, derived.program)) for block in derived.blocks]
+    tables = []
+    for block in derived.blocks:
+        table = look_ahead_table(block, derived.program)
+        # with what the contour needs as its notes
+        noted = table and replace(table, notes=advice_for_block(block, derived.program, table))
+        tables.append((block, noted))
     if options.json:
         blocks = [table_document(block, table, unit) for block, table in tables]
         text = json.dumps({"units": str(unit), "blocks": blocks}, allow_nan=False)
@@ -165,14 +166,6 @@ def lookahead(options: argparse.Namespace) -> int:
     return _status(derived)
 
 
-def _annotated(block: DerivedBlock, program: Program) -> Table | None:
-    """Return a block's table with what the contour needs as its notes."""
-    from core.pipeline.derive import advice_for_block, look_ahead_table
-
-    table = look_ahead_table(block, program)
-    return None if table is None else replace(table, notes=advice_for_block(block, program, table))
-
-
 def post(options: argparse.Namespace) -> int:
     """Run `cutcomp post`, which writes the NC text or says why there is none."""
     from app.session.posting import refusals
@@ -180,7 +173,14 @@ def post(options: argparse.Namespace) -> int:
     from core.pipeline.post import post_center_path, post_control_program
     from core.pipeline.unit_question import unit_question
 
-    control, derived, name = _control(options), _derived(options.file), _name(options.file)
+    control = None
+    if options.control is not None:
+        if options.override is not None:
+            raise Unusable("--override goes with the center path only: leave out --control.")
+        from app.cli.control_options import control_of
+
+        control = control_of(options.control)
+    derived, name = _derived(options.file), _name(options.file)
     if control is None:
         result = post_center_path(derived, name=name, override=options.override)
     else:
@@ -208,17 +208,6 @@ def _override_hint(result: Refusal, options: argparse.Namespace) -> str:
         return ""
     wrong = "" if options.override is None else f" {options.override!r} is not the phrase."
     return f"{wrong} To post in spite of it: --override '{OVERRIDE_PHRASE}'"
-
-
-def _control(options: argparse.Namespace) -> str | None:
-    """Return the full name of the requested control; None for the path of the tool's center."""
-    if options.control is None:
-        return None
-    if options.override is not None:
-        raise Unusable("--override goes with the center path only: leave out --control.")
-    from app.cli.control_options import control_of
-
-    return control_of(options.control)
 
 
 def plot(options: argparse.Namespace) -> int:

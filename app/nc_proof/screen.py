@@ -264,7 +264,9 @@ class ProofScreen(BaseScreen):
         taken = listing.read_only or self.take_lines()
         self.document = self.document.edited(self.document.text, listing.row)
         self._draw()
-        self._show_finding_of_row()
+        findings, here = self.query_one("#proof-findings", OptionList), self._findings_of_row()
+        if here and findings.highlighted not in here and not findings.has_focus:
+            findings.highlighted = self._most_severe(here)
         return taken
 
     # ---- the control's run
@@ -433,12 +435,6 @@ class ProofScreen(BaseScreen):
         where = f"{finding.line}: " if finding.line is not None else ""
         return Content.styled(f"{sign} {where}{sentence(finding, self.unit)}", role)
 
-    def _show_finding_of_row(self) -> None:
-        """Highlight the most severe finding of the line with the cursor."""
-        findings, here = self.query_one("#proof-findings", OptionList), self._findings_of_row()
-        if here and findings.highlighted not in here and not findings.has_focus:
-            findings.highlighted = self._most_severe(here)
-
     def _findings_of_row(self) -> list[int]:
         """Return the indexes of the findings of the line with the cursor."""
         return [at for at, finding in enumerate(self.result_findings) if finding.line == self.document.row + 1]
@@ -467,18 +463,16 @@ class ProofScreen(BaseScreen):
         self.query_one("#proof-findings", OptionList).highlighted = at
         if finding.line is not None:
             self.query_one(Listing).go_to_row(finding.line - 1)
-            self._center_on_line(finding.line)
+            if self.window_view is not None and self.result is not None:
+                # imported here: the first paint must not load numpy and shapely
+                from core.pipeline.nc_proof import cutter_at_line
+
+                center, _ = cutter_at_line(self.result.proof, finding.line)
+                self.window_view = replace(self.window_view, center=center)
             # before the listing's own cursor event, which would clear the message below
             if not self._follow_cursor():
                 return
         self.say(sentence(finding, self.unit))
-
-    def _center_on_line(self, line: int) -> None:
-        """If the drawing is enlarged, center it on the cutter at a line."""
-        from core.pipeline.nc_proof import cutter_at_line
-
-        if self.window_view is not None and self.result is not None:
-            self.window_view = replace(self.window_view, center=cutter_at_line(self.result.proof, line)[0])
 
     @on(OptionList.OptionHighlighted, "#proof-findings")
     def _finding_highlighted(self, event: OptionList.OptionHighlighted) -> None:
