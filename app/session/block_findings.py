@@ -76,9 +76,13 @@ def block_findings(block: DerivedBlock, table: Table | None, unit: Unit) -> tupl
     for finding in findings:
         if finding.code == "BLEND_GOUGES" and _place(finding) in gouges:
             continue
-        blend = blends.get(_place(finding)) if finding.code == "GOUGE" else None
         entry = _entry(finding, unit)
-        entries.append(entry if blend is None else _with_remedy(entry, blend, unit))
+        blend = blends.get(_place(finding)) if finding.code == "GOUGE" else None
+        if blend is not None:
+            # with the advice of the finding on the blend arc, and with the field that mends it
+            advice = sentence(blend, unit).partition(". ")[2]
+            entry = replace(entry, text=f"{entry.text} {advice}", field=blend.field)
+        entries.append(entry)
     return tuple(sorted(entries, key=lambda entry: (entry.kind, -entry.area)))
 
 
@@ -87,20 +91,18 @@ def _place(finding: Finding) -> tuple[float | None, Point | None, float | None]:
     return finding.segment, finding.at, finding.value
 
 
-def _with_remedy(gouge: Entry, blend: Finding, unit: Unit) -> Entry:
-    """Return the gouge with the advice of the finding on the blend arc, and with the field that mends it."""
-    advice = sentence(blend, unit).partition(". ")[2]
-    return replace(gouge, text=f"{gouge.text} {advice}", field=blend.field)
-
-
 def _entry(finding: Finding, unit: Unit) -> Entry:
     segment = None if finding.segment is None else int(finding.segment)
-    where = _where(finding)
-    title = _title(finding, unit)
-    area, field = finding.area or 0.0, finding.field
+    field, text = finding.field, sentence(finding, unit)
     if finding.code in START_FIELD_OF_ADVICE:
         segment, field = 0, START_FIELD_OF_ADVICE[finding.code]
-    return Entry(_kind(finding), title, where, sentence(finding, unit), finding.at, segment, field, area)
+    if finding.code == "GOUGE" and finding.value is not None:
+        title = f"GOUGE {length(finding.value, unit)} deep"
+    elif finding.code == "UNCUT" and finding.lengths:
+        title = f"UNCUT {length(finding.lengths[0], unit)} thick"
+    else:
+        title = text.partition(". ")[0].rstrip(".")
+    return Entry(_kind(finding), title, _where(finding), text, finding.at, segment, field, finding.area or 0.0)
 
 
 def _where(finding: Finding) -> str:
@@ -129,12 +131,3 @@ def _kind(finding: Finding) -> EntryKind:
     if finding.code in REMEDY_CODES:
         return EntryKind.REMEDY
     return EntryKind.UNCUT if finding.code == "UNCUT" else _KINDS[finding.severity]
-
-
-def _title(finding: Finding, unit: Unit) -> str:
-    """Return a gouge with its depth, uncut stock with its thickness, or the first sentence of any other finding."""
-    if finding.code == "GOUGE" and finding.value is not None:
-        return f"GOUGE {length(finding.value, unit)} deep"
-    if finding.code == "UNCUT" and finding.lengths:
-        return f"UNCUT {length(finding.lengths[0], unit)} thick"
-    return sentence(finding, unit).partition(". ")[0].rstrip(".")
