@@ -98,35 +98,18 @@ def on_form(session: Session, names: Sequence[str], at: str, stop: str | None) -
     if step.segment > len(block.segments):
         return f"{len(block.segments)} of {len(EXAMPLE_CORNERS)} sides stand. Ctrl+End, then Page Down adds a LINE."
     held = block.segments[step.segment - 1] if step.segment else None
-    wrong = _mismatch(session, step)
+    typed = _held(block, step)
+    label = field_of(Form.LINE if step.segment else Form.START, step.name).label.rstrip(".")
+    wrong = f"{label} is {typed.value:g}, and the plate has {step.text}. " if isinstance(typed, Number) else ""
     if place.segment != step.segment:
-        return wrong + _to_segment(session, step)
+        if step.segment == 0:
+            return f"{wrong}START is next: Ctrl+Home goes there (or 0 and Enter on the SEGMENT line)."
+        key = "Down" if place.segment < step.segment else "Up"
+        return f"{wrong}Segment {step.segment} is next: Page {key} goes there."
     if held is not None and not isinstance(held, LineSegment):
         return f"The plate has a LINE here, and this is {form_of(held)}. F1 deletes it (or Ctrl+K, then 1)."
-    return (wrong if at != step.name else "") + _on_field(step, names, at, stop)
-
-
-def _label(step: Step) -> str:
-    return field_of(Form.LINE if step.segment else Form.START, step.name).label.rstrip(".")
-
-
-def _mismatch(session: Session, step: Step) -> str:
-    """Return a note that a field's number differs from the plate's; empty if no number is typed there yet."""
-    held = _held(session.program.blocks[0], step)
-    return f"{_label(step)} is {held.value:g}, and the plate has {step.text}. " if isinstance(held, Number) else ""
-
-
-def _to_segment(session: Session, step: Step) -> str:
-    if step.segment == 0:
-        return "START is next: Ctrl+Home goes there (or 0 and Enter on the SEGMENT line)."
-    key = "Down" if session.place.segment < step.segment else "Up"
-    return f"Segment {step.segment} is next: Page {key} goes there."
-
-
-def _on_field(step: Step, names: Sequence[str], at: str, stop: str | None) -> str:
-    label = _label(step)
     if at != step.name:
-        return f"{'Enter' if stop == step.name else _arrow(names, at, step.name)} goes to {label}."
+        return f"{wrong}{'Enter' if stop == step.name else _arrow(names, at, step.name)} goes to {label}."
     if step.name == "cutter_comp":
         return f"{label}: press L until LEFT stands there. {step.why}"
     return f"{label}: type {step.text}, then Enter. {step.why}"
