@@ -113,7 +113,7 @@ class Operator:
         for key in keys:
             for name in key[1:] if key.startswith("'") else (key,):
                 order.take(key_event(name))
-                while order.current_walk:
+                while order.busy:
                     await sleep(0)
 
     async def settle(self) -> None:

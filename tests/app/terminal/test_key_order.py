@@ -28,7 +28,7 @@ async def burst(user: Operator, *keys: str) -> None:
     order = KeyOrder(user.app)
     for key in keys:
         order.take(events.Key(key, key if len(key) == 1 else None))
-    while order.current_walk:
+    while order.busy:
         await asyncio.sleep(0.001)
     await user.settle()
 
@@ -110,4 +110,6 @@ async def test_keys_for_an_ending_program_are_dropped(user: Operator, monkeypatc
         patch.setattr(MessagePump, "post_message", lambda *_: False)
         patch.setattr(MessagePump, "message_queue_size", 1)
         order.take(events.Key("5", "5"))
+        while order.busy:
+            await asyncio.sleep(0)
     assert not order.waiting
