@@ -167,14 +167,13 @@ def _without_overlaps(raw: RawOffset, slices: Slices, following: Rows, walls: Wa
 
 
 def _pair_up(following: Rows, ends: Rows, begins: Rows, rank: Floats) -> None:
-    """Let each of the slices `ends` be followed by one of `begins` (p,); pairs with the least rank go first."""
-    free_ends, used_begins = set(ends.tolist()), set[int]()
+    """Let the slices `ends`, which have none yet, be followed by `begins` (p,); pairs with the least rank go first."""
+    used = set[int]()
     for row in np.argsort(rank, kind="stable").tolist():
         end, begin = int(ends[row]), int(begins[row])
-        if end in free_ends and begin not in used_begins:
+        if following[end] < 0 and begin not in used:
             following[end] = begin
-            free_ends.remove(end)
-            used_begins.add(begin)
+            used.add(begin)
 
 
 def chains(stitched: StitchedSlices) -> list[tuple[Rows, bool]]:

@@ -17,7 +17,7 @@ from collections.abc import Iterator, Sequence, Set
 from dataclasses import dataclass, field, replace
 from itertools import takewhile
 from math import dist
-from typing import Final, NamedTuple, assert_never
+from typing import Final, assert_never
 
 from core.finding import Finding, Severity
 from core.geometry.corner import NoCorner, Reason, chamfer, fillet
@@ -294,7 +294,7 @@ def insert_corners(
 
 
 def _fault(segment: CornerSegment, fault: str, text: str, value: float | None = None, *lengths: float) -> Finding:
-    verb, size_label = _words(segment).verb, _words(segment).size_label
+    verb, _, size_label = _words(segment)
     code = f"{verb.upper()}_{fault}"
     return Finding(code, Severity.ERROR, text, field=size_label.lower(), value=value, lengths=lengths)
 
@@ -331,27 +331,18 @@ def _no_neighbor(
     pieces: Sequence[Piece | None], index: int, segment: CornerSegment, determined: Set[int]
 ) -> Finding | None:
     """Return a fault if a determined neighbor has no length, or none left."""
-    words = _words(segment)
+    verb, _, size_label = _words(segment)
     for neighbor in (index - 1, index + 1):
         if pieces[neighbor] is None and neighbor in determined:
             remedy = f"correct it or delete this {form_of(segment)}."
-            text = f"Segment {neighbor + 1} has no length left to {words.verb}: {remedy}"
-            return _fault(segment, words.size_label, text)
+            text = f"Segment {neighbor + 1} has no length left to {verb}: {remedy}"
+            return _fault(segment, size_label, text)
     return None
 
 
-class _CornerWords(NamedTuple):
-    """How sentences speak of a corner: what is done to it, what fills it, and the label of its size field."""
-
-    verb: str
-    noun: str
-    size_label: str
-
-
-def _words(segment: CornerSegment) -> _CornerWords:
-    if isinstance(segment, BlendSegment):
-        return _CornerWords("blend", "arc", "RADIUS")
-    return _CornerWords("chamfer", "chamfer", "LENGTH")
+def _words(segment: CornerSegment) -> tuple[str, str, str]:
+    """Return how sentences speak of a corner: what is done to it, what fills it, and the label of its size field."""
+    return ("blend", "arc", "RADIUS") if isinstance(segment, BlendSegment) else ("chamfer", "chamfer", "LENGTH")
 
 
 def _refused(refused: NoCorner, segment: CornerSegment, number: int, size: float) -> Finding:

@@ -23,7 +23,7 @@ from core.program.solve.run import reasons
 from core.program.solve.run.branch import MAX_RUN_LENGTH, Branch, Element, Parallel, Run
 from core.program.solve.run.fitting_number import with_fitting_number
 from core.program.solve.run.from_pick import Picked, picked_answers
-from core.program.solve.run.search import Search, search
+from core.program.solve.run.search import search
 from core.program.solve.segment import (
     TURNS,
     Carried,
@@ -84,36 +84,27 @@ def run_at(contour: TypedContour, index: int, own_draft: Draft) -> DraftedRun | 
         return (
             draft_of_result(segment, contour.readings[index], own_draft.before, SegmentResult(), contour.unit),
         ), None
-    attempt = _solved(contour, index, own_draft.before, 1 if tied else 2)
-    if chosen_by_next and not tied and (attempt is None or not _decides(attempt, own_draft)):
+    run = _solved(contour, index, own_draft.before, 1 if tied else 2)
+    if chosen_by_next and not tied and (run is None or not _decides(run, own_draft)):
         return None
-    alone = None if tied or chosen_by_next else _attempt(contour, [index], own_draft.before)
-    if alone is not None and alone.search.stuck is None and alone.search.answers:
+    alone = None if tied or chosen_by_next else _run_to(contour, [index], own_draft.before)
+    if alone is not None and search(alone).stuck is None and search(alone).answers:
         # its own data determine it, although the rules for a segment by itself do not
-        attempt = _narrowed(contour, alone, own_draft.before)
-    if attempt is None:
-        attempt = _unsolved(contour, index, own_draft.before)
-        if len(attempt.indices) == 1 and not tied:
+        run = _narrowed(contour, alone, own_draft.before)
+    if run is None:
+        run = _unsolved(contour, index, own_draft.before)
+        if len(run.elements) == 1 and not tied:
             return None
-    return _result(contour, attempt, own_draft)
+    return _result(contour, run, own_draft)
 
 
-def _decides(attempt: _Attempt, own_draft: Draft) -> bool:
+def _decides(run: Run, own_draft: Draft) -> bool:
     """True if the run leaves fewer solutions for its first segment than the segment has by itself."""
-    left = {_rounded(answer.pieces[:1]) for answer in attempt.search.answers}
+    left = {_rounded(answer.pieces[:1]) for answer in search(run).answers}
     return 0 < len(left) < len(own_draft.result.choices)
 
 
 # which segments make a run
-
-
-@dataclass(frozen=True, slots=True)
-class _Attempt:
-    """A run that is tried: the indices of its segments, its data, and all its answers."""
-
-    indices: tuple[int, ...]
-    run: Run
-    search: Search
 
 
 def _next(contour: TypedContour, index: int) -> int | None:
@@ -177,41 +168,43 @@ def _ends_run(contour: TypedContour, indices: Sequence[int]) -> bool:
     return not _tied(contour, after) and not any(reading.known.get("parallel") in numbers for reading in later)
 
 
-def _solved(contour: TypedContour, first: int, before: Carried, least: int) -> _Attempt | None:
+def _solved(contour: TypedContour, first: int, before: Carried, least: int) -> Run | None:
     """Return the shortest run from a segment on that the solver settles, with or without answers; None if none.
 
     It has at least `least` elements: a segment that is tied to no other has its own rules.
     """
     for indices in _candidate_runs(contour, first):
-        attempt = _attempt(contour, indices, before) if len(indices) >= least else None
-        if attempt is not None and attempt.search.stuck is None:
-            return _narrowed(contour, attempt, before)
+        run = _run_to(contour, indices, before) if len(indices) >= least else None
+        if run is not None and search(run).stuck is None:
+            return _narrowed(contour, run, before)
     return None
 
 
-def _attempt(contour: TypedContour, indices: Sequence[int], before: Carried) -> _Attempt | None:
-    """Solve a run; return None if too few data are typed."""
+def _run_to(contour: TypedContour, indices: Sequence[int], before: Carried) -> Run | None:
+    """Return a run; None if too few data are typed."""
     if not contour.readings[indices[-1]].known.keys() & END_DATA:
         return None
     run = _run(contour, indices, before)
-    return _Attempt(tuple(indices), run, search(run)) if run.enough else None
+    return run if run.enough else None
 
 
-def _narrowed(contour: TypedContour, attempt: _Attempt, before: Carried) -> _Attempt:
+def _narrowed(contour: TypedContour, run: Run, before: Carried) -> Run:
     """Extend the run by the segments tied to its end while they leave fewer answers."""
-    best, indices, count = attempt, list(attempt.indices), len(attempt.indices)
-    while len(best.search.answers) > 1 and len(indices) < MAX_RUN_LENGTH:
+    indices, count = list(run.indices), len(run.elements)
+    while len(search(run).answers) > 1 and len(indices) < MAX_RUN_LENGTH:
         after = _next(contour, indices[-1])
         if after is None or not _tied(contour, after):
             break
         indices.append(after)
-        longer = _attempt(contour, indices, before)
-        if longer is None or longer.search.stuck is not None:
+        longer = _run_to(contour, indices, before)
+        if longer is None or search(longer).stuck is not None:
             continue
-        starts = {_rounded(answer.pieces[:count]) for answer in longer.search.answers}
-        if len(starts) < len({_rounded(answer.pieces[:count]) for answer in best.search.answers}):
-            best, count = longer, len(indices)
-    return best
+        left, left_by_longer = (
+            len({_rounded(answer.pieces[:count]) for answer in search(each).answers}) for each in (run, longer)
+        )
+        if left_by_longer < left:
+            run, count = longer, len(indices)
+    return run
 
 
 def _rounded(pieces: Sequence[Piece]) -> tuple[float, ...]:
@@ -219,11 +212,10 @@ def _rounded(pieces: Sequence[Piece]) -> tuple[float, ...]:
     return tuple(round(value, 4) for piece in pieces for value in (*piece.end, *getattr(piece, "center", ())))
 
 
-def _unsolved(contour: TypedContour, first: int, before: Carried) -> _Attempt:
+def _unsolved(contour: TypedContour, first: int, before: Carried) -> Run:
     """Return the run whose missing data are reported: up to the first typed end, else up to the longest."""
     *_, indices = _candidate_runs(contour, first)
-    run = _run(contour, indices, before)
-    return _Attempt(indices, run, search(run))
+    return _run(contour, indices, before)
 
 
 # the data of a run
@@ -313,37 +305,36 @@ def _relative_fault(contour: TypedContour, index: int) -> Finding | None:
 # the drafts of a run
 
 
-def _result(contour: TypedContour, attempt: _Attempt, own_draft: Draft) -> DraftedRun:
+def _result(contour: TypedContour, run: Run, own_draft: Draft) -> DraftedRun:
     """Return the drafts of a run and the run itself: solved, or waiting for a pick or for data, with the reason."""
-    picked = _picked(contour, attempt)
-    answers = _answers(attempt, picked)
-    taken, finding = _taken(contour, attempt, answers, picked)
-    indices = attempt.indices
+    picked = _picked(contour, run)
+    answers = _answers(run, picked)
+    taken, finding = _taken(contour, run, answers, picked)
+    first, last = run.elements[0].number, run.elements[-1].number
     code = None if finding is None else finding.code
-    missing = max(0, attempt.run.missing)
-    sketch = tuple(piece for piece in (*_sketches(attempt), _chord_to_end(attempt.run)) if piece is not None)
-    run = SolvedRun(indices[0] + 1, indices[-1] + 1, answers, taken, code, missing, () if taken is not None else sketch)
+    sketch = tuple(piece for piece in (*_sketches(run), _chord_to_end(run)) if piece is not None)
+    solved = SolvedRun(first, last, answers, taken, code, max(0, run.missing), () if taken is not None else sketch)
     if taken is not None:
         results = _determined(contour, dict(answers[taken].pieces), own_draft.before)
     else:
         assert finding is not None
-        results = _waiting(contour, attempt, own_draft, finding)
-    return _drafts(contour, attempt, own_draft.before, results), run
+        results = _waiting(contour, run, own_draft, finding)
+    return _drafts(contour, run, own_draft.before, results), solved
 
 
-def _picked(contour: TypedContour, attempt: _Attempt) -> Picked | None:
+def _picked(contour: TypedContour, run: Run) -> Picked | None:
     """Return the answers near the operator's pick if the steps do not solve the run; None without a usable pick."""
-    known = contour.readings[attempt.indices[0]].known
-    if attempt.search.stuck is None or attempt.run.missing > 0 or not ("pick_x" in known and "pick_y" in known):
+    known = contour.readings[run.indices[0]].known
+    if search(run).stuck is None or run.missing > 0 or not ("pick_x" in known and "pick_y" in known):
         return None
-    return picked_answers(attempt.run, (known["pick_x"], known["pick_y"]))
+    return picked_answers(run, (known["pick_x"], known["pick_y"]))
 
 
-def _answers(attempt: _Attempt, picked: Picked | None) -> tuple[RunAnswer, ...]:
-    if picked is None and attempt.search.stuck is not None:
+def _answers(run: Run, picked: Picked | None) -> tuple[RunAnswer, ...]:
+    if picked is None and search(run).stuck is not None:
         return ()
-    numbers = [index + 1 for index in attempt.indices]
-    answers = attempt.search.answers if picked is None else picked.answers
+    numbers = [element.number for element in run.elements]
+    answers = search(run).answers if picked is None else picked.answers
     numbered = [(tuple(zip(numbers, answer.pieces, strict=True)), answer) for answer in answers]
     if picked is None:
         return tuple(RunAnswer(pieces, answer.choice) for pieces, answer in numbered)
@@ -351,17 +342,17 @@ def _answers(attempt: _Attempt, picked: Picked | None) -> tuple[RunAnswer, ...]:
 
 
 def _taken(
-    contour: TypedContour, attempt: _Attempt, answers: tuple[RunAnswer, ...], picked: Picked | None
+    contour: TypedContour, run: Run, answers: tuple[RunAnswer, ...], picked: Picked | None
 ) -> tuple[int | None, Finding | None]:
     """Return the index of the answer in force, or the finding that explains why there is none."""
-    run, result = attempt.run, attempt.search
+    result = search(run)
     if picked is not None and answers:
         return picked.taken, None if picked.taken is not None else reasons.pick_nearer(run, len(answers))
     if result.stuck is not None:
         return None, _why_stuck(contour, run, result.stuck, pick_tried=picked is not None)
     if not answers:
         return None, with_fitting_number(run, result.findings[0])
-    choice = getattr(contour.segments[attempt.indices[0]], "choice", None)
+    choice = getattr(contour.segments[run.indices[0]], "choice", None)
     if choice is None and len(answers) == 1:
         return 0, None
     taken = next((at for at, answer in enumerate(answers) if answer.choice == choice), None)
@@ -419,12 +410,11 @@ def _determined(contour: TypedContour, pieces: dict[int, Piece], before: Carried
     return {number - 1: SegmentResult(piece, piece.end) for number, piece in pieces.items()}
 
 
-def _waiting(contour: TypedContour, attempt: _Attempt, own_draft: Draft, finding: Finding) -> dict[int, SegmentResult]:
+def _waiting(contour: TypedContour, run: Run, own_draft: Draft, finding: Finding) -> dict[int, SegmentResult]:
     """Return the results of an undetermined run by index; the finding goes to the segment it names."""
-    results = {
-        index: SegmentResult(sketch=sketch) for index, sketch in zip(attempt.indices, _sketches(attempt), strict=True)
-    }
-    first, lacking = attempt.indices[0], finding.code == "MISSING"
+    sketches = zip(run.indices, _sketches(run), strict=True)
+    results = {index: SegmentResult(sketch=sketch) for index, sketch in sketches}
+    first, lacking = run.indices[0], finding.code == "MISSING"
     assert finding.segment is not None
     at = int(finding.segment) - 1
     faulty = finding.code in ("MISSING", "NOT_YET") and bool(contour.readings[at].findings)
@@ -435,12 +425,10 @@ def _waiting(contour: TypedContour, attempt: _Attempt, own_draft: Draft, finding
     return results
 
 
-def _drafts(
-    contour: TypedContour, attempt: _Attempt, before: Carried, results: dict[int, SegmentResult]
-) -> tuple[Draft, ...]:
+def _drafts(contour: TypedContour, run: Run, before: Carried, results: dict[int, SegmentResult]) -> tuple[Draft, ...]:
     """Return the drafts of a run's segments, including corners, each from what the one before passes on."""
     drafts: list[Draft] = []
-    for index in range(attempt.indices[0], attempt.indices[-1] + 1):
+    for index in range(run.indices[0], run.indices[-1] + 1):
         segment, reading = contour.segments[index], contour.readings[index]
         result = results.get(index)
         if result is None:
@@ -448,8 +436,8 @@ def _drafts(
         else:
             drafts.append(draft_of_result(segment, reading, before, result, contour.unit))
         before = drafts[-1].after
-        if result is not None and result.piece is None and index != attempt.indices[-1]:
-            joint = attempt.search.known.joint(attempt.indices.index(index) + 1)
+        if result is not None and result.piece is None and index != run.indices[-1]:
+            joint = search(run).known.joint(run.indices.index(index) + 1)
             before = replace(before, point=joint or before.point)
     return tuple(drafts)
 
@@ -463,9 +451,9 @@ def _chord_to_end(run: Run) -> Line | None:
     return Line(run.start, end) if dist(run.start, end) > JOINED else None
 
 
-def _sketches(attempt: _Attempt) -> list[Piece | None]:
+def _sketches(run: Run) -> list[Piece | None]:
     """Return what can be drawn of each element of an undetermined run."""
-    return [_sketch(attempt.run, attempt.search.known, index) for index in range(len(attempt.indices))]
+    return [_sketch(run, search(run).known, index) for index in range(len(run.elements))]
 
 
 def _sketch(run: Run, known: Branch, index: int) -> Piece | None:

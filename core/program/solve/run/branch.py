@@ -76,6 +76,11 @@ class Run:
     elements: tuple[Element, ...]
 
     @property
+    def indices(self) -> tuple[int, ...]:
+        """The indices of its segments in the block, from 0."""
+        return tuple(element.number - 1 for element in self.elements)
+
+    @property
     def missing(self) -> int:
         """The least number of data still needed; 0 or less if there are enough."""
         return sum(element.missing for element in self.elements)

@@ -5,7 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 from functools import lru_cache
 from math import dist
-from typing import Final, NamedTuple
+from typing import Final
 
 from core.finding import Finding
 from core.geometry.piece import Piece, Point
@@ -59,19 +59,12 @@ NO_CHAIN_YET: Final = 2
 """How far a dropped branch got, the farthest first."""
 
 
-class _Dropped(NamedTuple):
-    """A branch without an answer: how far it got, and the first of the objections to it."""
-
-    stage: int
-    objection_count: int
-    finding: Finding
-
-
 @lru_cache(512)
 def search(run: Run) -> Search:
     """Return every answer that the steps give."""
     first = Branch(run)
-    dropped: list[_Dropped] = []
+    # how far a branch got, the number of objections to it, and the first of them
+    dropped: list[tuple[int, int, Finding]] = []
     answers: list[Answer] = []
     stuck: Branch | None = None
     waiting, count = [first], 0
@@ -79,9 +72,10 @@ def search(run: Run) -> Search:
         branch, count = waiting.pop(), count + 1
         branch.settle()
         try:
-            next_branches = None if branch.complete else _next_branches(branch)
+            steps = () if branch.complete else STEPS
+            next_branches = next((branches for step in steps if (branches := step(branch)) is not None), None)
         except DeadEnd as end:
-            dropped.append(_Dropped(NO_CHAIN_YET, 0, end.finding))
+            dropped.append((NO_CHAIN_YET, 0, end.finding))
             continue
         if next_branches is not None:
             waiting += reversed(next_branches)
@@ -96,21 +90,12 @@ def search(run: Run) -> Search:
                     answers.append(Answer(_choice_of(branch), chain))
             else:
                 stage = CHAIN_WITH_OBJECTIONS if chain is not None else PIECE_IMPOSSIBLE
-                dropped.append(_Dropped(stage, len(objections), objections[0]))
+                dropped.append((stage, len(objections), objections[0]))
     if waiting:
         stuck, answers = stuck or first, []
     answers.sort(key=lambda answer: (round(answer.length, 5), answer.choice))
-    dropped.sort(key=lambda drop: (drop.stage, drop.objection_count))
-    return Search(tuple(answers), tuple(drop.finding for drop in dropped), stuck, first)
-
-
-def _next_branches(branch: Branch) -> list[Branch] | None:
-    """Return the branches that the first step that applies leads to, None if no step applies."""
-    for step in STEPS:
-        next_branches = step(branch)
-        if next_branches is not None:
-            return next_branches
-    return None
+    dropped.sort(key=lambda drop: drop[:2])
+    return Search(tuple(answers), tuple(finding for *_, finding in dropped), stuck, first)
 
 
 def _choice_of(branch: Branch) -> int:
