@@ -29,7 +29,7 @@ from core.importing.drawing import (
 )
 from core.importing.joints import joined_chain, reversed_pieces
 from core.importing.loops import Chain, chained
-from core.importing.nesting import box_of, boxes_of, containers, crosses_itself, crossings
+from core.importing.nesting import box_of, containers, crosses_itself, crossings
 from core.importing.nodes import KEY_DECIMALS, SAME_POINT
 from core.program.fields import LARGEST_LENGTH
 from core.units import Kind, Unit, decimals_shown, from_mm, length_text, show
@@ -263,11 +263,11 @@ def _nested(contours: Sequence[Contour]) -> list[Contour]:
 
 def _by_size(contours: Sequence[Contour]) -> list[Contour]:
     """Sort contours by size, largest first; those of equal size by position."""
-    keys = [
-        (-round(contour.area, KEY_DECIMALS), rounded(box[:2]), rounded(contour.start))
-        for contour, box in zip(contours, boxes_of([contour.pieces for contour in contours]), strict=True)
-    ]
-    return [contours[row] for row in sorted(range(len(contours)), key=keys.__getitem__)]
+
+    def key(contour: Contour) -> tuple[float, ...]:
+        return -round(contour.area, KEY_DECIMALS), *rounded(box_of(contour.pieces)[:2]), *rounded(contour.start)
+
+    return sorted(contours, key=key)
 
 
 def _by_length(contour: Contour) -> tuple[float, ...]:

@@ -12,8 +12,9 @@ from typing import Final
 import numpy as np
 import shapely
 
-from core.geometry.path import Floats, Path, Pieces, boxes, chords_of
-from core.geometry.piece import Arc, Piece, signed_area
+from core.geometry.path import Floats, Path, chords_of
+from core.geometry.path_parts import parts_of
+from core.geometry.piece import Piece, signed_area
 from core.geometry.piece_arrays import piece_arrays
 from core.verify.self_crossings import self_crossings
 
@@ -23,25 +24,10 @@ CHORD_ERROR: Final = 0.005
 
 
 def box_of(pieces: Sequence[Piece]) -> Box:
-    """Return the box of a chain."""
-    return boxes_of([pieces])[0]
-
-
-def boxes_of(chains: Sequence[Sequence[Piece]]) -> list[Box]:
-    """Return the box of each chain; all at once, since a drawing may have thousands of small ones."""
-    if not chains:
-        return []
-    pieces = [piece for chain in chains for piece in chain]
-    start = np.array([complex(*piece.start) for piece in pieces])
-    end = np.array([complex(*piece.end) for piece in pieces])
-    arcs = [piece if isinstance(piece, Arc) else None for piece in pieces]
-    center = np.array([complex(*arc.center) if arc else 0j for arc in arcs])
-    turn = np.array([int(arc.turn) if arc else 0 for arc in arcs], np.int8)
-    sides = boxes(Pieces(start, end, center, turn))
-    firsts = np.cumsum([0, *(len(chain) for chain in chains[:-1])])
-    outer = (np.minimum, np.minimum, np.maximum, np.maximum)
-    extremes = (most.reduceat(side, firsts).tolist() for most, side in zip(outer, sides, strict=True))
-    return list(zip(*extremes, strict=True))
+    """Return the box of pieces."""
+    # what links the parts of a path lies within their box
+    left, bottom, right, top = parts_of([piece] for piece in pieces).path.boxes
+    return float(left.min()), float(bottom.min()), float(right.max()), float(top.max())
 
 
 def containers(chains: Sequence[Sequence[Piece]]) -> list[list[int]]:
