@@ -8,7 +8,6 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 from enum import IntEnum
-from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
@@ -43,28 +42,20 @@ class RawChain:
         return len(self.parts)
 
 
-class _Offsets(NamedTuple):
-    """n offset segments: starts and ends (2, n), the left unit normals there (2, n), and which have `vanished` (n,)."""
-
-    ends: Points
-    normals: Points
-    vanished: Flags
-
-
 def offset(contour: Path, side: Side, radius: float) -> RawChain:
     """Return the raw chain of a contour without zero-length segments, `radius` > 0 millimeters to `side`.
 
     Each segment has two slots, one for itself and one for its joint with the next; the chain takes the slots in use.
     """
-    offsets = _offsets(contour, side.sign * radius)
-    link, outside = _joints(offsets.normals, side.sign, radius)
+    ends, normals, vanished = _offsets(contour, side.sign * radius)
+    link, outside = _joints(normals, side.sign, radius)
     slots = 2 * len(contour) - 1
     segments, joints = slice(0, None, 2), slice(1, None, 2)
     points, turns, parts = np.empty(slots + 1, np.complex128), np.zeros(slots, np.int8), np.zeros(slots, np.uint8)
-    points[0::2], points[1::2] = offsets.ends
-    turns[segments] = np.where(offsets.vanished, 0, contour.turns)
+    points[0::2], points[1::2] = ends
+    turns[segments] = np.where(vanished, 0, contour.turns)
     turns[joints] = np.where(outside, -side.sign, 0)
-    parts[segments] = np.where(offsets.vanished, RawPart.VANISHED, RawPart.SEGMENT)
+    parts[segments] = np.where(vanished, RawPart.VANISHED, RawPart.SEGMENT)
     parts[joints] = np.where(outside, RawPart.CORNER, RawPart.BRIDGE)
     centers = points[:-1].copy()
     centers[segments] = np.where(turns[segments] == 0, centers[segments], as_complex(contour.centers))
@@ -80,14 +71,17 @@ def offset(contour: Path, side: Side, radius: float) -> RawChain:
     return RawChain(raw, parts[half_steps], half_steps)
 
 
-def _offsets(contour: Path, shift: float) -> _Offsets:
-    """Move all segments by `shift` along their left normals."""
+def _offsets(contour: Path, shift: float) -> tuple[Points, Points, Flags]:
+    """Move n segments by `shift` along their left normals.
+
+    Return starts and ends (2, n), the left unit normals there (2, n), and which have vanished (n,).
+    """
     points, centers, turns = as_complex(contour.points), as_complex(contour.centers), contour.turns
     ends = np.array((points[:-1], points[1:]))
     normals = np.where(turns == 0, 1j * (ends[1] - ends[0]), (centers - ends) * turns)
     sizes = np.abs(normals)
     normals /= sizes
-    return _Offsets(ends + shift * normals, normals, (turns != 0) & (sizes[0] - shift * turns <= JOINED))
+    return ends + shift * normals, normals, (turns != 0) & (sizes[0] - shift * turns <= JOINED)
 
 
 def _joints(normals: Points, sign: int, radius: float) -> tuple[Flags, Flags]:

@@ -9,7 +9,7 @@ from __future__ import annotations
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from math import radians, tau
-from typing import Final, NamedTuple
+from typing import Final
 
 import numpy as np
 
@@ -35,14 +35,10 @@ class Fitted:
     deviation: float
 
 
-class _Fit(NamedTuple):
-    """An arc or a line through the ends of some points, and its largest distance from their lines."""
+_Fit = tuple[Piece, float]
+"""An arc or a line through the ends of some points, and its largest distance from their lines."""
 
-    piece: Piece
-    deviation: float
-
-
-_Make = Callable[[Points, float], "_Fit | None"]
+_Make = Callable[[Points, float], _Fit | None]
 """Fits some points within FIT; None if that is not possible."""
 
 
@@ -82,7 +78,7 @@ def _ring(points: Points, fit: float) -> tuple[list[Piece], float]:
     """Fit a smooth ring: one circle if that will do, else from the first break of a fit that starts anywhere."""
     circle = _circle(points[:-1], fit)
     if circle is not None:
-        return [circle.piece], circle.deviation
+        return [circle[0]], circle[1]
     pieces, _ = _open_run(points, fit)
     at = int(np.argmin(np.abs(points[:-1] - complex(*pieces[0].end))))
     turned = np.concatenate((points[at:-1], points[: at + 1]))
@@ -109,7 +105,7 @@ def _circle(points: Points, fit: float) -> _Fit | None:
         return None
     at = middle + center
     begin = point_of(at + radius)
-    return _Fit(Arc(begin, begin, point_of(at), Turn.CCW if turned.sum() > 0.0 else Turn.CW), deviation)
+    return Arc(begin, begin, point_of(at), Turn.CCW if turned.sum() > 0.0 else Turn.CW), deviation
 
 
 def _turns_one_way(turned: Floats) -> bool:
@@ -128,13 +124,14 @@ def _open_run(points: Points, fit: float) -> tuple[list[Piece], float]:
     pieces: list[Piece] = []
     deviation, at, last = 0.0, 0, len(points) - 1
     while at < last:
-        best, reach = _Fit(Line(point_of(points[at]), point_of(points[at + 1])), 0.0), at + 1
+        piece: Piece = Line(point_of(points[at]), point_of(points[at + 1]))
+        off, reach = 0.0, at + 1
         for make in (_straight, _bent):
             made, end = _longest(points, at, fit, make)
             if made is not None and end > reach:
-                best, reach = made, end
-        pieces.append(best.piece)
-        deviation = max(deviation, best.deviation)
+                (piece, off), reach = made, end
+        pieces.append(piece)
+        deviation = max(deviation, off)
         at = reach
     return pieces, deviation
 
@@ -169,7 +166,7 @@ def _straight(points: Points, fit: float) -> _Fit | None:
     deviation = float(np.abs(local.imag).max())
     if deviation > fit or (np.diff(local.real) <= 0.0).any():
         return None
-    return _Fit(Line(point_of(points[0]), point_of(points[-1])), deviation)
+    return Line(point_of(points[0]), point_of(points[-1])), deviation
 
 
 def _bent(points: Points, fit: float) -> _Fit | None:
@@ -205,7 +202,7 @@ def _bent(points: Points, fit: float) -> _Fit | None:
         return None
     below = height - radius
     center = (complex(0.0, -below if turn > 0.0 else below) + size / 2.0) * (chord / size) + points[0]
-    return _Fit(Arc(point_of(points[0]), point_of(points[-1]), point_of(center), Turn(int(turn))), deviation)
+    return Arc(point_of(points[0]), point_of(points[-1]), point_of(center), Turn(int(turn))), deviation
 
 
 def _deviation_from_arc(local: Points, size: float, height: float) -> float:

@@ -64,12 +64,12 @@ class Surface:
             as_typed = Surface._of(path, side)
             if leads is Leads.NONE:
                 return as_typed
-            if (trimmed := _without_over_run(as_typed, leads=leads)) is not None:
+            if (trimmed := _without_over_run(as_typed, may_be_leads=leads)) is not None:
                 return trimmed
             if (shorter_path := _without_overlap(as_typed)) is None:
                 return as_typed
             shorter = Surface._of(shorter_path, side)
-            if (trimmed := _without_over_run(shorter, leads=leads)) is not None:
+            if (trimmed := _without_over_run(shorter, may_be_leads=leads)) is not None:
                 return trimmed
             return shorter if shorter.closed and not len(shorter.crossings) else as_typed
 
@@ -108,14 +108,14 @@ def _same_circle(walls: PieceArrays) -> bool:
     return bool(arcs and max(abs(center - other), abs(radius - large)) <= JOINED)
 
 
-def _without_over_run(surface: Surface, *, leads: Leads) -> Surface | None:
+def _without_over_run(surface: Surface, *, may_be_leads: Leads) -> Surface | None:
     """Return the closed surface that begins and ends at the crossing of its first and its last element.
 
     One of them may begin, end or join the next element at the crossing, as long as either runs past it.  Return None if
     anything else crosses, or if a run past the crossing is not clear of the closed surface or is at least as long.
     """
     walls, stations = surface.walls, surface.walls.stations
-    crossing = _crossing_of_ends(surface, leads=leads)
+    crossing = _crossing_of_ends(surface, leads=may_be_leads)
     if crossing is None:
         return None
     at, first, last = crossing
@@ -129,27 +129,25 @@ def _without_over_run(surface: Surface, *, leads: Leads) -> Surface | None:
     runs += [_run_out(surface, last, at)] if lead_out > JOINED else []
     if not all(_is_clear(run, trimmed_walls, surface.side) for run in runs):
         return None
+    # of both ends: the lead, its element from there on, the rows outward, and what of the first of these is beyond
+    leads, elements = (lead_in, lead_out), (float(stations[begin + 1]), float(stations[-1] - stations[end]))
+    outward = range(begin, -1, -1), range(end, len(walls))
+    beyond = first - float(stations[begin]), float(stations[end + 1]) - last
     # a lead that is a move of its own is programmed on purpose
-    lead_in_is_move = begin > 0 and (walls.arcs[0] or first <= stations[begin] + JOINED)
-    lead_out_is_move = end < len(walls) - 1 and (walls.arcs[-1] or last >= stations[end + 1] - JOINED)
-    if lead_in > JOINED:
-        share = 0.0 if lead_in_is_move else lead_in / float(stations[begin + 1])
-    else:
-        share = 0.0 if lead_out_is_move else lead_out / float(stations[-1] - stations[end])
-    first_number, last_number = surface.path.numbers[walls.rows[[begin, end]]].tolist()
-    doubtful = len(runs) == 1 and share > LONG_LEAD
-    rows_in, rows_out = range(begin, -1, -1), range(end, len(walls))
-    beyond_in, beyond_out = first - float(stations[begin]), float(stations[end + 1]) - last
-    max_share_in = LONG_LEAD if lead_out_is_move else MAX_LEAD_SHARE
-    max_share_out = LONG_LEAD if lead_in_is_move else MAX_LEAD_SHARE
-    maybe_walls = _may_be_walls(walls, rows_in, beyond_in, max_share_in)
-    maybe_walls |= _may_be_walls(walls, rows_out, beyond_out, max_share_out)
+    is_move = (
+        begin > 0 and bool(walls.arcs[0] or beyond[0] <= JOINED),
+        end < len(walls) - 1 and bool(walls.arcs[-1] or beyond[1] <= JOINED),
+    )
+    side = 0 if lead_in > JOINED else 1
+    doubtful = len(runs) == 1 and not is_move[side] and leads[side] / elements[side] > LONG_LEAD
+    max_shares = (LONG_LEAD if move else MAX_LEAD_SHARE for move in reversed(is_move))
+    maybe_walls = any(map(_may_be_walls, (walls, walls), outward, beyond, max_shares))
     named_leads = set[int]()
-    if maybe_walls or max(lead_in, lead_out) > MAX_LEAD_SHARE * (last - first):
-        if lead_in > JOINED:
-            named_leads |= set(rows_in if beyond_in > JOINED else rows_in[1:])
-        if lead_out > JOINED:
-            named_leads |= set(rows_out if beyond_out > JOINED else rows_out[1:])
+    if maybe_walls or max(leads) > MAX_LEAD_SHARE * (last - first):
+        for lead, rows, past in zip(leads, outward, beyond, strict=True):
+            if lead > JOINED:
+                named_leads |= set(rows if past > JOINED else rows[1:])
+    first_number, last_number = surface.path.numbers[walls.rows[[begin, end]]].tolist()
     lead_numbers = tuple(surface.path.numbers[walls.rows[sorted(named_leads)]].tolist())
     over_run = OverRun(at, lead_in, lead_out, first_number, last_number, doubtful, lead_numbers)
     return Surface(surface.path, surface.side, trimmed_walls, True, NO_CROSSINGS, over_run)
@@ -200,22 +198,23 @@ def _in_line(walls: PieceArrays, rows: range) -> int:
     return rows[-1]
 
 
-def _may_be_walls(walls: PieceArrays, outward: range, beyond: float, max_share: float) -> set[int]:
-    """Return the rows, from the crossing `outward`, that are taken for leads but may be walls.
+def _may_be_walls(walls: PieceArrays, outward: range, beyond: float, max_share: float) -> bool:
+    """True if some of the rows from the crossing `outward`, which are taken for leads, may be walls.
 
-    They are lines that bend off the first of these rows, and the rows of its own element if more than `max_share` of
+    These are lines that bend off the first of these rows, and the rows of its own element if more than `max_share` of
     that lies beyond the crossing, `beyond` (mm) of the first row.  If the crossing is a joint, the moves past it are
     leads on purpose.
     """
     if beyond <= JOINED:
-        return set()
+        return False
     inward = range(outward[0], len(walls)) if outward.step < 0 else range(outward[0], -1, -1)
     far, near = _in_line(walls, outward), _in_line(walls, inward)
-    rows = {row for row in outward if not walls.arcs[row] and abs(row - outward[0]) > abs(far - outward[0])}
+    if any(not walls.arcs[row] and abs(row - outward[0]) > abs(far - outward[0]) for row in outward):
+        return True
     element = float(walls.length[min(far, near) : max(far, near) + 1].sum())
     in_line = range(outward[0], far + outward.step, outward.step)
     beyond += float(walls.length[list(in_line[1:])].sum())
-    return rows | set(in_line) if beyond > max_share * element else rows
+    return beyond > max_share * element
 
 
 def _between(path: Path, begin: int, end: int, at: Point) -> Path:

@@ -293,29 +293,22 @@ The cuts thus end well away from every place where the path may turn, and are ne
 """
 
 
-@dataclass(frozen=True, eq=False, slots=True)
-class _Remainder:
-    """The rest of the m pieces, from `low` to `high` (m,) mm along them; nothing remains if high is not above low."""
-
-    low: Floats
-    high: Floats
-
-
 def trimmed(chain: Untrimmed, sign: int, radius: float) -> RawOffset:
     """Return the raw offset without the parts certainly nearer to the surface than `radius`; `sign` +1 is LEFT."""
     raw = chain.raw
-    remainder = _Remainder(np.zeros(len(raw)), raw.lengths.copy())
-    corners, meets = _mitered(chain, remainder, sign, radius)
-    before = _Remainder(remainder.low.copy(), remainder.high.copy())
-    _cut_inside(chain, remainder, radius)
-    cut_low, cut_high = remainder.low > before.low, remainder.high < before.high
+    # the rest of each piece: nothing if `high` is not above `low` (m,), in mm along it
+    low, high = np.zeros(len(raw)), raw.lengths.copy()
+    corners, meets = _mitered(chain, low, high, sign, radius)
+    mitered_low, mitered_high = low.copy(), high.copy()
+    _cut_inside(chain, low, high, radius)
+    cut_low, cut_high = low > mitered_low, high < mitered_high
     if not len(corners) and not cut_low.any() and not cut_high.any():
         return raw
-    return _rebuilt(chain, remainder, (corners, meets), cut_low, cut_high)
+    return _rebuilt(chain, low, high, (corners, meets), cut_low, cut_high)
 
 
-def _mitered(chain: Untrimmed, remainder: _Remainder, sign: int, radius: float) -> tuple[Rows, Points]:
-    """Cut `remainder` at inside corners of two lines that meet; return the rows of the first lines and the points.
+def _mitered(chain: Untrimmed, low: Floats, high: Floats, sign: int, radius: float) -> tuple[Rows, Points]:
+    """Cut pieces off at inside corners of two lines that meet; return the rows of the first lines and the points.
 
     If three offset lines meet in nearly one place, the corner is left to the general rule.
     """
@@ -330,17 +323,17 @@ def _mitered(chain: Untrimmed, remainder: _Remainder, sign: int, radius: float) 
     within = (cut_length > 0.0) & (cut_length <= available)
     rows, after, unit = rows[within], after[within], unit[within]
     cut_length = cut_length[within] / (1.0 + bend.real[within])
-    remainder.high[rows] -= cut_length
-    remainder.low[after] = cut_length
-    crowded = np.abs(remainder.high - remainder.low) <= CROWDED
+    high[rows] -= cut_length
+    low[after] = cut_length
+    crowded = np.abs(high - low) <= CROWDED
     ambiguous = crowded[rows] | crowded[after]
     if ambiguous.any():
-        remainder.high[rows[ambiguous]], remainder.low[after[ambiguous]] = raw.lengths[rows[ambiguous]], 0.0
+        high[rows[ambiguous]], low[after[ambiguous]] = raw.lengths[rows[ambiguous]], 0.0
         rows, unit, cut_length = rows[~ambiguous], unit[~ambiguous], cut_length[~ambiguous]
     return rows, raw.end[rows] - cut_length * unit
 
 
-def _cut_inside(chain: Untrimmed, remainder: _Remainder, radius: float) -> None:
+def _cut_inside(chain: Untrimmed, low: Floats, high: Floats, radius: float) -> None:
     """Cut off what lies in circles about vertices ahead and back, at growing distance until none is near."""
     limit = radius - max(_CERTAINLY_INSIDE_SHARE * radius, 2.0 * CROWDED)
     step, near = 1, limit > 0.0
@@ -351,22 +344,22 @@ def _cut_inside(chain: Untrimmed, remainder: _Remainder, radius: float) -> None:
             vertices = np.minimum(np.maximum(rows, 0), len(chain.vertices) - 1)
             places = chain.vertices[vertices]
             near |= bool(((np.abs(places - chain.raw.start) < 2.0 * radius) & (vertices == rows)).any())
-            _cut(chain.raw, remainder, places, limit)
+            _cut(chain.raw, low, high, places, limit)
         step *= 2
 
 
-def _cut(raw: RawOffset, remainder: _Remainder, places: Points, limit: float) -> None:
+def _cut(raw: RawOffset, low: Floats, high: Floats, places: Points, limit: float) -> None:
     """Cut off both ends of all pieces where they are within `limit` of their spots."""
-    near = (np.abs(places - raw.start) < limit + raw.lengths) & (remainder.low < remainder.high)
+    near = (np.abs(places - raw.start) < limit + raw.lengths) & (low < high)
     for of_kind, within in ((raw.turns == 0, _within_lines), (raw.turns != 0, _within_arcs)):
         rows = (near & of_kind).nonzero()[0]
         if not len(rows):
             continue
         begin, end = within(raw, rows, places[rows], limit)
-        low, high = remainder.low[rows], remainder.high[rows]
-        at_low, at_high = (begin <= low) & (end > low), (end >= high) & (begin < high)
-        remainder.low[rows[at_low]] = end[at_low]
-        remainder.high[rows[at_high]] = begin[at_high]
+        first, last = low[rows], high[rows]
+        at_low, at_high = (begin <= first) & (end > first), (end >= last) & (begin < last)
+        low[rows[at_low]] = end[at_low]
+        high[rows[at_high]] = begin[at_high]
 
 
 def _within_lines(raw: RawOffset, rows: Rows, places: Points, limit: float) -> tuple[Floats, Floats]:
@@ -393,24 +386,23 @@ def _within_arcs(raw: RawOffset, rows: Rows, places: Points, limit: float) -> tu
 
 
 def _rebuilt(
-    chain: Untrimmed, remainder: _Remainder, corners: tuple[Rows, Points], cut_low: Flags, cut_high: Flags
+    chain: Untrimmed, low: Floats, high: Floats, corners: tuple[Rows, Points], cut_low: Flags, cut_high: Flags
 ) -> RawOffset:
     """Shorten the raw pieces, drop those of which nothing remains, and mark their neighbors' ends as blunt."""
     raw, (rows, meets) = chain.raw, corners
     following, smooth = raw.following.copy(), raw.smooth.copy()
     following[rows], smooth[rows] = chain.successor[rows], True
-    vanished = remainder.high - remainder.low <= np.where(cut_low | cut_high, JOINED, -CROWDED)
+    vanished = high - low <= np.where(cut_low | cut_high, JOINED, -CROWDED)
     start, end = raw.start.copy(), raw.end.copy()
     start[chain.successor[rows]], end[rows] = meets, meets
-    start[cut_low] = raw.at(cut_low.nonzero()[0], remainder.low[cut_low])
-    end[cut_high] = raw.at(cut_high.nonzero()[0], remainder.high[cut_high])
+    start[cut_low] = raw.at(cut_low.nonzero()[0], low[cut_low])
+    end[cut_high] = raw.at(cut_high.nonzero()[0], high[cut_high])
     joined = (following >= 0).nonzero()[0]
     after = following[joined]
     separated = vanished[joined] | cut_high[joined] | vanished[after] | cut_low[after]
     blunt_start, blunt_end = cut_low, cut_high
     blunt_end[joined[separated]], blunt_start[after[separated]] = True, True
     following[joined[separated]], smooth[joined[separated]] = -1, False
-    size = remainder.high - remainder.low
-    raw = replace(raw, start=start, end=end, lengths=size, following=following, smooth=smooth)
+    raw = replace(raw, start=start, end=end, lengths=high - low, following=following, smooth=smooth)
     raw = replace(raw, blunt_start=blunt_start, blunt_end=blunt_end)
     return raw.take(~vanished) if vanished.any() else raw

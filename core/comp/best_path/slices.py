@@ -160,17 +160,6 @@ class Slices:
         return raw.at(piece, along), piece
 
 
-class _Strands(NamedTuple):
-    """Strands are runs of smoothly joined side pieces: their first pieces, their last pieces and their end nodes.
-
-    A strand that another one follows ends at that one's first node.  Each has two nodes of its own.
-    """
-
-    heads: Rows
-    tails: Rows
-    ends: Rows
-
-
 class _Stations(NamedTuple):
     """Every intersection on both of its pieces, by piece and as traveled: piece, distance along it, node, turn.
 
@@ -198,34 +187,38 @@ def sliced(raw: RawOffset, sign: int) -> Slices | None:
     meetings = _self_intersections(raw, sign)
     if meetings is None:
         return None
-    strands = _strands(raw)
-    points, outer = _nodes(raw, meetings, strands)
-    stations = _stations(raw, meetings, 2 * len(strands.heads))
+    heads, tails, ends = _strands(raw)
+    points, outer = _nodes(raw, meetings, heads, tails)
+    stations = _stations(raw, meetings, 2 * len(heads))
     del meetings
     first_twin, second_twin = stations.of(~raw.side).twins()
     stations = stations.of(raw.side)
-    head = np.arange(len(strands.heads)) + np.searchsorted(stations.piece, strands.heads)
-    at = np.arange(len(stations.piece)) + np.searchsorted(strands.heads, stations.piece, side="right")
+    head = np.arange(len(heads)) + np.searchsorted(stations.piece, heads)
+    at = np.arange(len(stations.piece)) + np.searchsorted(heads, stations.piece, side="right")
     count = len(head) + len(at)
     piece, begin, first = np.empty(count, np.intp), np.zeros(count), np.empty(count, np.intp)
-    piece[head], first[head] = strands.heads, np.arange(len(head))
+    piece[head], first[head] = heads, np.arange(len(head))
     piece[at], begin[at], first[at] = stations.piece, stations.along, stations.node
     tail = np.append(head[1:], count)[: len(head)] - 1
     end_piece, end, last = next_in_ring(piece), next_in_ring(begin), next_in_ring(first)
-    end_piece[tail], end[tail], last[tail] = strands.tails, raw.lengths[strands.tails], strands.ends
+    end_piece[tail], end[tail], last[tail] = tails, raw.lengths[tails], ends
     dead = np.zeros(count, np.bool_)
     dead[at[stations.turn > 0.0]] = True
     dead[at[stations.turn < 0.0] - 1] = True
-    dead[head] |= raw.blunt_start[strands.heads]
-    dead[tail] |= raw.blunt_end[strands.tails]
+    dead[head] |= raw.blunt_start[heads]
+    dead[tail] |= raw.blunt_end[tails]
     size = _sizes(raw, piece, begin, end_piece, end)
     cut = Slices(piece, end_piece, begin, end, size, first, last, dead, points, outer)
-    rings = (raw.start[strands.heads] == raw.end[strands.tails]).nonzero()[0]
-    return _welded(cut, np.concatenate((first_twin, rings)), np.concatenate((second_twin, strands.ends[rings])))
+    rings = (raw.start[heads] == raw.end[tails]).nonzero()[0]
+    return _welded(cut, np.concatenate((first_twin, rings)), np.concatenate((second_twin, ends[rings])))
 
 
-def _strands(raw: RawOffset) -> _Strands:
-    """Return the strands of a raw offset; each full circle is a strand of its own."""
+def _strands(raw: RawOffset) -> tuple[Rows, Rows, Rows]:
+    """Return the first pieces, the last pieces and the end nodes of strands, runs of smoothly joined side pieces.
+
+    A full circle is a strand of its own.  A strand that another one follows ends at that one's first node; each has two
+    nodes of its own.
+    """
     pieces = raw.side.nonzero()[0]
     goes_on = raw.smooth & (raw.following == np.arange(1, len(raw) + 1)) & (raw.start != raw.end)
     goes_on[:-1] &= raw.start[1:] != raw.end[1:]
@@ -237,7 +230,7 @@ def _strands(raw: RawOffset) -> _Strands:
     after = raw.following[tails]
     joined = (after >= 0) & raw.side[after]
     ends = np.where(joined, np.searchsorted(heads, after), np.arange(count) + count)
-    return _Strands(heads, tails, ends)
+    return heads, tails, ends
 
 
 def _stations(raw: RawOffset, met: Intersections, nodes: int) -> _Stations:
@@ -255,16 +248,16 @@ def _sizes(raw: RawOffset, piece: Rows, begin: Floats, end_piece: Rows, end: Flo
     return np.where(piece == end_piece, end - begin, (traveled[end_piece] + end) - (traveled[piece] + begin))
 
 
-def _nodes(raw: RawOffset, met: Intersections, strands: _Strands) -> tuple[Points, Flags]:
+def _nodes(raw: RawOffset, met: Intersections, heads: Rows, tails: Rows) -> tuple[Points, Flags]:
     """Return all nodes before welding: the strands' starts and ends, then the meetings; and those on the outline."""
-    count = len(strands.heads)
-    points = np.concatenate((raw.start[strands.heads], raw.end[strands.tails], met.points))
+    count = len(heads)
+    points = np.concatenate((raw.start[heads], raw.end[tails], met.points))
     outer = np.zeros(len(points), np.bool_)
-    after = raw.following[strands.tails]
+    after = raw.following[tails]
     outer[count : 2 * count] = (after >= 0) & ~raw.side[after]
     before = np.zeros(len(raw), np.bool_)
     before[raw.following[~raw.side & (raw.following >= 0)]] = True
-    outer[:count] = before[strands.heads]
+    outer[:count] = before[heads]
     outer[2 * count :] = ~(raw.side[met.a] & raw.side[met.b])
     return points, outer
 
