@@ -12,12 +12,13 @@ from pathlib import Path
 from typing import Final
 
 from app.documents.files import read_file, why, write_text
-from app.terminal.capabilities import CHARACTER_SETS
 from core.program.file.read import StoreError
 
 MAX_FILES_WITH_TOOLS: Final = 100
 """The most NC programs whose tools are remembered."""
 MAX_SETTINGS_BYTES: Final = 1_000_000
+CHARACTER_SETS: Final = ("braille", "block", "ascii")
+"""The character sets that a drawing can be made of."""
 THEMES: Final = ("dark", "light")
 
 
