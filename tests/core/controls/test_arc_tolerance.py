@@ -51,6 +51,7 @@ def test_radii_may_differ_up_to_the_limit_of_the_control(control: str, unit: Uni
     ("control", "start", "center", "hint"),
     [
         ("fanuc:a", "X10. Y0.", "I10. J10.", "If I and J are meant from the program's zero, write I0. J10."),
+        ("fanuc:a", "X10.000001 Y0.", "I10. J10.", "If I and J are meant from the program's zero, write I0. J10."),
         ("linuxcnc", "X10. Y1.", "I10. J11.", "If I and J are meant from the program's zero, write I0. J10."),
         ("threeblock", "X10. Y0.", "I0. J10.", "If I and J are meant from the arc's start, write I10. J10."),
         ("threeblock", "X10. Y1.5", "I0. J10.", "If I and J are meant from the arc's start, write I10. J11.5"),

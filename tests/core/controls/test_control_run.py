@@ -78,3 +78,9 @@ def test_an_alarm_stops_at_its_own_line_or_another() -> None:
 def test_a_program_that_stops_before_it_names_its_unit_has_the_unit_named_below(control: str, text: str, unit: Unit):
     run = run_of(text, control)
     assert (run.stopped_at, run.unit) == (2 if text.startswith("G0") else 1, unit)
+
+
+@pytest.mark.parametrize("control", ["linuxcnc", "klartext"])
+def test_an_empty_program_is_refused_at_its_first_column(control: str) -> None:
+    (finding,) = run_of("\n \n", control).findings
+    assert (finding.code, finding.line, finding.column) == ("EMPTY", 1, 1)

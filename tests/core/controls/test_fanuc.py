@@ -1291,3 +1291,11 @@ def test_compensation_without_a_contour_is_a_stretch_of_its_own(control: str) ->
         (Side.RIGHT, [0, 9]),
     ]
     assert [move.point[:2] for move in run.moves if move.line in (4, 9)] == [(50.0, 5.0), (0.0, 5.0)]
+
+
+def test_an_arc_that_loses_crossing_vectors_runs_as_a_line() -> None:
+    arcs = "X-3.3 Y-6.8\nG3 X.1 Y.4 R9.44\nG1 X1.8 Y-3.2\nG2 X2.7 Y-2.5 R2.72\nX-3. Y-5.5 R4.08\n"
+    made = ran(f"{HEAD}G41 D1 X0 Y0\n{arcs}G40 G1 Y50.\nM30\n", radii={1: 2.0})
+    assert [finding.line for finding in findings_of(made, "FN-VECTOR")]
+    turns = {line: {move.turn for move in made.moves if move.line == line} for line in (4, 6, 7)}
+    assert turns == {4: {1}, 6: {0}, 7: {0, -1}}

@@ -398,3 +398,12 @@ def test_turns_that_are_no_whole_number_are_refused(turns: str, tmp_path: Path) 
     assert (alarm.severity, alarm.line, alarm.column) == (Severity.ERROR, 3, 10)
     # cutcomp alone has an upper limit
     assert bool(witness(text, tmp_path, {}, Unit.MM).refusal) == (turns != "2000")
+
+
+@needs_witness
+def test_an_entry_arc_whose_chord_is_tangent_at_its_end_is_refused(tmp_path: Path) -> None:
+    """No circle runs from such a start to the offset end with the programmed tangent there."""
+    program = "G21 G90 G17 F100\nG0 X.866025 Y.5\nG41 D1 G3 X0 Y1 I-.866025 J-.5\nG1 X-5\nG40 G1 X-5 Y-5\nM2\n"
+    made = run_of(program, "linuxcnc", t1=1.0)
+    assert (made.stopped_at, made.findings[-1].code) == (3, "N-ARCRADIUS")
+    assert witness(program, tmp_path, {1: 1.0}, Unit.MM).refusal == "Tool radius not less than arc radius with comp"

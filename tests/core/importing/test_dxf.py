@@ -161,9 +161,11 @@ def test_the_unit_question_shows_the_size_in_both_units() -> None:
 
 
 def test_the_unit_question_measures_curves() -> None:
-    """An ellipse of half axes 5 and 2.5."""
-    text = unit_question(read(dxf(ellipse((1, 2), (5, 0), 0.5), units=None)))
-    assert text.endswith("10 x 5: as IN 10.0000 x 5.0000, as MM 10.000 x 5.000")
+    """An ellipse of half axes 5 and 2.5, and its part from 90 to 180 degrees."""
+    whole = ellipse((1, 2), (5, 0), 0.5)
+    part = [*whole[:-2], (41, math.pi / 2), (42, math.pi)]
+    for entity, size in ((whole, "10.0000 x 5.0000, as MM 10.000 x 5.000"), (part, "5.0000 x 2.5000")):
+        assert f": as IN {size}" in unit_question(read(dxf(line((1, 2), (1, 4)), entity, units=None)))
 
 
 def test_entities_in_paper_space_or_invisible_are_counted() -> None:

@@ -241,6 +241,11 @@ def test_the_machine_readable_answer_is_in_program_units() -> None:
     ]
 
 
+def test_the_machine_readable_answer_has_the_deepest_gouge_and_its_line() -> None:
+    row = answer(AROUND % b"G42", request_for("linuxcnc", CutterTool(1, 10.0)))
+    assert row.json()["deepest_gouge"] == {"depth": pytest.approx(10.0), "line": 4}
+
+
 def test_a_file_that_cannot_be_read_has_the_same_keys_as_an_answer() -> None:
     document, row = unreadable("a.nc", "It is empty."), answer(ARC % b"", request_for("linuxcnc")).json()
     assert set(document) == {"file", *row}

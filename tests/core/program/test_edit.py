@@ -211,6 +211,12 @@ def test_two_blends_cannot_be_neighbors(at):
     assert edit.insert_segment(blended, FormPlace(1, at), BlendSegment()) == refused
 
 
+def test_a_blend_may_be_two_segments_before_another():
+    blended = program(line(x_end=1.0, y_end=0.0), line(x_end=2.0, y_end=0.5), blend(0.1), line(x_end=2.0, y_end=1.0))
+    segments = accepted(edit.insert_segment(blended, FormPlace(1, 2), blend(0.2))).blocks[0].segments
+    assert list(map(type, segments)) == [LineSegment, BlendSegment, LineSegment, BlendSegment, LineSegment]
+
+
 def test_delete_segment_deletes_all_but_start():
     first, _, third = SQUARE.blocks[0].segments
     assert accepted(edit.delete_segment(SQUARE, FormPlace(1, 2))).blocks[0].segments == (first, third)
