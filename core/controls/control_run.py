@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from bisect import bisect
 from collections import Counter
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field, replace
@@ -105,14 +106,22 @@ class SpindleChange(NamedTuple):
     speed: float | None = None
 
 
+class SetupChange(NamedTuple):
+    """The setup from a row of the moves on: another position of axes that are not followed, or another work offset
+    that the program does not set.  A setup that comes again has its number again."""
+
+    row: int = 0
+    number: int = 0
+
+
 @dataclass(frozen=True, eq=False, slots=True)
 class ControlRun:
     """A program's run on a control.
 
     `unit` is the program's; everything else is in millimeters.  `stopped_at` is the line at which the control would
     stop with an alarm, None if it runs to the end; `moves` are those made before that.  `unplaced` are the rows whose
-    height only the machine knows.  `spindle` are the changes of tool and speed, in order.  `variables` are the common
-    macro variables as the program leaves them.
+    height only the machine knows.  `spindle` are the changes of tool and speed, in order, `setups` those of the setup.
+    `variables` are the common macro variables as the program leaves them.
     """
 
     control: str
@@ -123,6 +132,7 @@ class ControlRun:
     stretches: tuple[Stretch, ...] = ()
     unplaced: frozenset[int] = frozenset()
     spindle: tuple[SpindleChange, ...] = (SpindleChange(),)
+    setups: tuple[SetupChange, ...] = (SetupChange(),)
     variables: Mapping[int, float] = field(default_factory=dict)
 
     @property
@@ -133,6 +143,10 @@ class ControlRun:
     def spindle_at(self, row: int) -> SpindleChange:
         """Return the tool and the speed in force when the move of a row begins."""
         return next(change for change in reversed(self.spindle) if change.row <= row)
+
+    def setup_at(self, row: int) -> int:
+        """Return the number of the setup in which the move of a row runs; places of two setups do not compare."""
+        return self.setups[bisect(self.setups, row, key=lambda change: change.row) - 1].number
 
     def stops_within(self, stretch: Stretch) -> bool:
         """True if the control stops within the stretch."""

@@ -79,6 +79,7 @@ def run_iso(
         tuple(control.stretches),
         frozenset(control.tape.unplaced),
         tuple(machine.spindle),
+        tuple(machine.setups),
         dict(flow.variables.common) if isinstance(flow, MacroFlow) else {},
     )
     return _by_main_lines(run, flow)

@@ -11,7 +11,7 @@ from typing import Final
 
 from core.controls.compensation.elements import arc_element, element_sweep, line_element, single_turns
 from core.controls.compensation.recorder import Recorder
-from core.controls.control_run import SpindleChange, Spot
+from core.controls.control_run import SetupChange, SpindleChange, Spot
 from core.controls.control_tools import ToolTable, missing_tool
 from core.controls.iso import cycles
 from core.controls.iso.arcs import IN_PLANE, NoArc, center_by_radius, given_center
@@ -126,6 +126,9 @@ class Machine(ModalState):
         super().__init__(dialect, tools, control.log)
         self.control, self.side_on = control, False
         self.spindle = [SpindleChange()]
+        self.other_axes: dict[str, float] = {}
+        self.setups = [SetupChange()]
+        self.setup_numbers: dict[tuple[object, ...], int] = {(0,): 0}
         control.machine, control.unit = self, self.unit
 
     def step(self, block: Block) -> None:
@@ -178,13 +181,14 @@ class Machine(ModalState):
         self.take_spindle(block)
         self._take_tool(block)
         self._note_spindle()
-        self._warn_of_axes(block)
         non_modal = None
         for code in codes:
             if self._takes_axis_words(code):
                 non_modal = code
             elif not self.control.active or self.control.takes_effect(code.value, block):
                 self._set(code, block)
+        self._take_other_axes(block)
+        self._note_setup()
         if self.dialect.unit_first and "F" in block.words:
             self.feed = block.words["F"] * self.scale
         if self.dialect.reports_unused:
@@ -308,10 +312,24 @@ class Machine(ModalState):
         if change[1:] != self.spindle[-1][1:]:
             self.spindle.append(change)
 
-    def _warn_of_axes(self, block: Block) -> None:
+    def _take_other_axes(self, block: Block) -> None:
+        """Note where the axes are that are not followed; warn when a new one appears."""
         for letter in _OTHER_AXES:
-            if letter in block.words:
+            if letter not in block.words:
+                continue
+            if letter not in self.other_axes:
                 self.log.warn("AXIS", f"cutcomp does not follow axis {letter}, only X, Y and Z.", block.at(letter))
+            before = self.other_axes.get(letter, 0.0) if self.incremental else 0.0
+            self.other_axes[letter] = before + block.words[letter]
+
+    def _note_setup(self) -> None:
+        """Note the work offset that the program does not set, and the other axes that are not at 0, on a change."""
+        system = self.origin.system
+        unknown = 0 if system == G54 or system in self.origin.systems else system
+        setup = (unknown, *sorted(item for item in self.other_axes.items() if item[1]))
+        number = self.setup_numbers.setdefault(setup, len(self.setup_numbers))
+        if number != self.setups[-1].number:
+            self.setups.append(SetupChange(len(self.control.tape), number))
 
     def _warn_of_unused(self, block: Block) -> None:
         """Warn of words that no code uses: a control may do something with them that cutcomp does not follow."""

@@ -116,7 +116,6 @@ class MacroMachine(Machine):
         self.current = Block(1, "")
         self.line = 1
         self.start_unknown = self.start_height_unknown = self.has_height = self.raised = self.probed = False
-        self.other_axes: set[str] = set()
         self.following: Block | None = None
         self.corner_point: Point3 | None = None
 
@@ -416,13 +415,6 @@ class MacroMachine(Machine):
         first, second, _ = self.plane.axes
         center = self._absolute(first, words), self._absolute(second, words)
         self.transform = replace(self.transform, angle=words["R"], center=center, plane=self.plane)
-
-    def _warn_of_axes(self, block: Block) -> None:
-        """Warn of axes that are not followed, when a new one appears."""
-        new = {letter: block.words[letter] for letter in "ABCUVW" if letter in block.words} if block.words else {}
-        if new.keys() - self.other_axes:
-            self.other_axes |= new.keys()
-            super()._warn_of_axes(block)
 
     # origins and machine positions
 

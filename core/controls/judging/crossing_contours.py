@@ -2,17 +2,14 @@
 
 from __future__ import annotations
 
-from bisect import bisect
 from collections.abc import Sequence
 
 import numpy as np
 
-from core.controls.control_run import ControlRun, Stretch
-from core.controls.iso.modal_state import TAKEN_AS_ZERO
+from core.controls.control_run import ControlRun
 from core.controls.judging.rapids_at_depth import CutContour
 from core.controls.judging.repeated_passes import PathKey, path_key
 from core.controls.moves import Plane
-from core.finding import Severity
 from core.progress import Progress, silent
 from core.verify.other_contours import MIN_CUT_DEPTH, ContourCut, Sweep, Wall, cuts_into_other_contours
 
@@ -27,16 +24,16 @@ def cuts_of_other_contours(
     """
     if len(run.stretches) < 2:
         return ()
-    cuts = cuts_into_other_contours(_walls(run, contours), _sweeps(run, contours), progress)
+    cuts = cuts_into_other_contours(_walls(contours), _sweeps(run, contours), progress)
     return tuple(sorted(cuts, key=lambda cut: cut.gouge.path_number))
 
 
-def _walls(run: ControlRun, contours: Sequence[CutContour]) -> list[Wall]:
+def _walls(contours: Sequence[CutContour]) -> list[Wall]:
     """Return the contours in XY; of those with the same shape, the one that is cut highest."""
-    walls, setups = dict[tuple[PathKey, int], Wall](), _setups(run)
+    walls = dict[tuple[PathKey, int], Wall]()
     for contour in contours:
         if contour.stretch.plane is Plane.XY:
-            shape, setup = path_key(contour.path), bisect(setups, _line(contour.stretch))
+            shape, setup = path_key(contour.path), contour.setup
             if (shape, setup) not in walls or contour.top > walls[shape, setup].top:
                 walls[shape, setup] = Wall(
                     contour.path, contour.stretch.side, contour.top, shape, contour.accepted, setup
@@ -46,10 +43,10 @@ def _walls(run: ControlRun, contours: Sequence[CutContour]) -> list[Wall]:
 
 def _sweeps(run: ControlRun, contours: Sequence[CutContour]) -> list[Sweep]:
     """Return the compensated moves of a run in XY, by stretch and radius; of equal ones the lowest."""
-    sweeps, setups = dict[tuple[PathKey, float, int], Sweep](), _setups(run)
+    sweeps = dict[tuple[PathKey, float, int], Sweep]()
     for stretch in run.stretches:
         shapes = frozenset(path_key(cut.path) for cut in contours if stretch.has_part(cut.stretch))
-        setup = bisect(setups, _line(stretch))
+        setup = run.setup_at(stretch.first + 1)
         for part in stretch.parts() if stretch.plane is Plane.XY else ():
             moves = run.moves.part(part.first, part.last)
             path, heights = moves.path(), moves.heights()
@@ -58,18 +55,3 @@ def _sweeps(run: ControlRun, contours: Sequence[CutContour]) -> list[Sweep]:
             if part.radius > MIN_CUT_DEPTH and len(path) and heights.min() < lowest:
                 sweeps[key] = Sweep(path, heights, part.radius, shapes, setup)
     return list(sweeps.values())
-
-
-def _setups(run: ControlRun) -> list[int]:
-    """Return the lines at which the program turns the part or takes a work offset whose values it does not give."""
-    return sorted(
-        finding.line
-        for finding in run.findings
-        if finding.line
-        and finding.severity is Severity.WARNING
-        and (finding.code == "AXIS" or (finding.code == "OFFSET" and TAKEN_AS_ZERO in finding.text))
-    )
-
-
-def _line(stretch: Stretch) -> int:
-    return int(stretch.programmed.lines[-1])

@@ -63,7 +63,11 @@ def judge_run(run: ControlRun, progress: Progress = silent) -> tuple[JudgedConto
     if results:
         contours = [
             CutContour(
-                result.surface, result.stretch, highest_cut(result.stretch), accepted_difference(run, result.surface)
+                result.surface,
+                result.stretch,
+                highest_cut(result.stretch),
+                accepted_difference(run, result.surface),
+                run.setup_at(result.stretch.first + 1),
             )
             for result in results
         ]

@@ -38,12 +38,13 @@ LEAST_RADIUS: Final = 0.2
 
 @dataclass(frozen=True, eq=False, slots=True)
 class CutContour:
-    """A contour of a stretch, the height of its highest cut, and how far the radii of its arcs may differ."""
+    """A contour of a stretch, the height of its highest cut, how far its arcs' radii may differ, and its setup."""
 
     path: Path
     stretch: Stretch
     top: float
     accepted: float
+    setup: int = 0
 
 
 class _CutContours:
@@ -55,13 +56,14 @@ class _CutContours:
         outer = [np.concatenate((boxes[:2].min(axis=1), boxes[2:].max(axis=1))) for boxes in self.boxes]
         self.tree = BoxTree.of(np.column_stack(outer))
 
-    def near(self, path: Path, reach: float) -> list[CutContour]:
-        """Return the contours of which a box is no farther from a box of a path than `reach`."""
+    def near(self, path: Path, reach: float, setup: int) -> list[CutContour]:
+        """Return the contours of a setup of which a box is no farther from a box of a path than `reach`."""
         rows = sorted({row for _, rows in near_pairs(path.boxes, self.tree, reach) for row in rows.tolist()})
         return [
             self.contours[row]
             for row in rows
-            if any(len(pairs) for pairs, _ in near_pairs(path.boxes, self.boxes[row], reach))
+            if self.contours[row].setup == setup
+            and any(len(pairs) for pairs, _ in near_pairs(path.boxes, self.boxes[row], reach))
         ]
 
 
@@ -124,7 +126,8 @@ def moves_through(
     for rows in runs_of(_low_rapids(run, max(contour.top for contour in contours))):
         at_depth(int(rows[0]) / len(run.moves))
         moves = run.moves.part(int(rows[0]) - 1, int(rows[-1]) + 1)
-        cuts += _cuts(moves, tools.radius(int(rows[0]))[0], all_contours, rapid=True)
+        setup = run.setup_at(int(rows[0]))
+        cuts += _cuts(moves, tools.radius(int(rows[0]))[0], all_contours, setup, rapid=True)
     for row in np.flatnonzero(_low_rapids(run, inf)).tolist():
         over_walls(row / len(run.moves))
         below_zero = _below_zero(run.moves.part(row - 1, row + 1))
@@ -137,7 +140,8 @@ def moves_through(
         beside(first / len(run.moves))
         own_contours = [contour for contour in contours if stretch.has_part(contour.stretch)]
         if own_contours:
-            cuts += _cuts(run.moves.part(first, last), stretch.radius, _CutContours(own_contours), rapid=False)
+            moves, setup = run.moves.part(first, last), own_contours[0].setup
+            cuts += _cuts(moves, stretch.radius, _CutContours(own_contours), setup, rapid=False)
     # a cut at depth takes precedence, and a wall that is already cut over one that is yet to be cut
     ranked = sorted(
         cuts, key=lambda cut: (not cut.above, cut.gouge.surface_number < cut.gouge.path_number, cut.gouge.depth)
@@ -208,10 +212,10 @@ def _low_rapids(run: ControlRun, top: float) -> Flags:
     return low
 
 
-def _cuts(moves: Moves, radius: float, contours: _CutContours, *, rapid: bool) -> list[UncompensatedCut]:
+def _cuts(moves: Moves, radius: float, contours: _CutContours, setup: int, *, rapid: bool) -> list[UncompensatedCut]:
     path, height = moves.path(), float(moves.points[:, 2].max())
     cuts = list[UncompensatedCut]()
-    for contour in contours.near(path, radius):
+    for contour in contours.near(path, radius, setup):
         if height > contour.top + ON_PATH:
             continue
         verdict = judge(contour.path, contour.stretch.side, radius, path, contour.accepted, measures_uncut=False)
@@ -236,7 +240,7 @@ def _cuts_above(tools: _Tools, row: int, move: Moves, radius: float, contours: _
     """Return the cuts of a rapid into contours that are cut lower, unless feed moves before have cut all that away."""
     path, low, high = move.path(), float(move.points[:, 2].min()), float(move.points[:, 2].max())
     cuts = list[UncompensatedCut]()
-    for contour in contours.near(path, radius):
+    for contour in contours.near(path, radius, tools.run.setup_at(row)):
         if high <= contour.top + ON_PATH:
             continue
         verdict = judge(contour.path, contour.stretch.side, radius, path, contour.accepted, measures_uncut=False)

@@ -122,3 +122,12 @@ def test_contours_under_different_work_offsets_or_clampings_are_not_compared(bet
     """Another work offset that is set on the control, or a turned part."""
     assert told(box(0, 0, 40, -5), box(30, 0, 40, -5))
     assert not told(box(0, 0, 40, -5), between, box(30, 0, 40, -5))
+
+
+@pytest.mark.parametrize("back", ["G54\nG0 B0\n", "G91 B-90\nG90 G54\n"])
+def test_a_setup_that_comes_again_is_compared_with_itself(back: str) -> None:
+    """Three faces on a rotary table, each with its own contours in the same X and Y."""
+    face = box(0, 0, 40, -5)
+    other_faces = f"G55 B90\n{box(10, 0, 40, -5)}B180\n{box(20, 0, 40, -5)}B90\n"
+    assert not told(face, other_faces, back)
+    assert told(face, other_faces, back, box(30, 0, 40, -5))

@@ -131,6 +131,14 @@ def test_a_move_to_a_machine_position_ends_the_known_depth(home: str, control: s
     ]
 
 
+@pytest.mark.parametrize("control", CONTROLS)
+def test_a_rapid_in_another_setup_is_not_compared(control: str) -> None:
+    """The table turns the part to a face that has nothing in the way."""
+    turned = f"{BORE}G0 Z50.\nB90.\nX20.\nZ{{}}\nX70.\nZ50.\nB0\nX20.\nZ-5.\nX70.\nM30\n"
+    assert [finding.line for finding in rapids(turned.format("-5."), control)] == [18]
+    assert not rapids(turned.format("-2."), control, "LOW-RAPID")
+
+
 @pytest.mark.parametrize("control", ["fanuc:a", "haas:a"])
 def test_a_tool_change_ends_the_known_depth(control: str) -> None:
     """These machines raise the tool to change it; LinuxCNC leaves it where it is."""
