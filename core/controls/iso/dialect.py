@@ -201,7 +201,7 @@ _USED_BY_G: Final[Mapping[int, str]] = (
     | {430: "H", 490: "H", 640: "P", 960: "D", 440: "H", 541: "P", 1540: "P"}
     | {50: "PR", 51: "QR", 80: "P", 390: "IJK", 510: "PIJK", 680: "R", 1030: "P", 1870: "PE"}
 )
-_USED_BY_M: Final[Mapping[int, str]] = {960: "PQL", 970: "PL", 980: "PL", 990: "P", 1980: "PL"}
+_USED_BY_M: Final[Mapping[int, str]] = {190: "PR", 960: "PQL", 970: "PL", 980: "PL", 990: "P", 1980: "PL"}
 _USED_BY_ARC: Final = "IJKR"
 _USED_BY_CYCLE: Final = "RQPLIJK"
 

@@ -77,7 +77,7 @@ _ARGUMENTS_WITHOUT_POINT: Final = re.compile(f"[ABCIJKQRUVWXYZ]{_NO_POINT}")
 _ARC: Final = re.compile(r"G0?[23](?![0-9])|[IJ]")
 _SCALE: Final = re.compile(r"G51(?![.0-9])")
 _MACRO_CALL: Final = re.compile(r"G6[56]")
-_NO_LENGTHS: Final = re.compile(r"G0?5(?![0-9])|M9[6789]")
+_NO_LENGTHS: Final = re.compile(r"G0?5(?![0-9])|M9[6789]|M19[ \t]*+R")
 _LETTERS: Final = re.compile(r"(?<![A-Z])(?!DPRNT|BPRNT|POPEN|PCLOS|SETVN)[A-Z]{2,}(?![A-Z\[])|[A-Z][ \t]++[A-Z]{2}")
 _FOR_EDITORS: Final = re.compile(r"[ \t]*+(?:\$[a-z]|#(?:end)?region\b)", re.IGNORECASE)
 """Lines such as $AddRegPart and #region, which never reach a control."""

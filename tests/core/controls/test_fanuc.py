@@ -839,10 +839,17 @@ def test_a_tool_change_under_compensation_is_reported(control: str) -> None:
         ("G91 X10. R1. K3\nM30", 0),
         ("G18 G2 X10. Z0. K5\nM30", 17),
         ("M96 P10 Q5\nM30", 0),
+        ("M19 R90\nM30", 0),
+        ("X7 M19\nM30", 1),
     ],
 )
 def test_lengths_without_a_decimal_point_are_reported_and_counts_are_not(blocks: str, column: int) -> None:
     assert [finding.column for finding in findings_of(ran(HEAD + blocks), "FN-POINT")] == [column] * bool(column)
+
+
+@pytest.mark.parametrize("control", ["fanuc:a", "haas:a"])
+def test_the_angle_of_an_oriented_spindle_is_used(control: str) -> None:
+    assert not findings_of(ran(f"{HEAD}M19 R90.\nM19 P270\nM30", control), "UNUSED")
 
 
 @pytest.mark.parametrize(
