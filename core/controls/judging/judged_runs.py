@@ -3,10 +3,8 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from typing import Final
-
-import numpy as np
 
 from core.controls.control_run import ControlRun, Stretch
 from core.controls.judging.contours_and_leads import split_where_it_closes
@@ -22,12 +20,11 @@ from core.controls.judging.judged_contour import (
 from core.controls.judging.judged_stretches import judge_stretch
 from core.controls.judging.judged_walls import accepted_difference, cuts_below, cuts_into
 from core.controls.judging.moves_above import Divided, divided, heights_above
-from core.controls.judging.rapids_at_depth import CutContour, highest_cut, moves_through
+from core.controls.judging.rapids_at_depth import CutContour, PathTree, highest_cut, moves_through
 from core.controls.judging.repeated_passes import path_key, without_repeats
 from core.controls.judging.standing_walls import standing_walls
 from core.controls.judging.stretch_paths import closed_passes_of, programmed_surface
-from core.geometry.nearby import BoxTree, near_pairs
-from core.geometry.path import Path, Rows
+from core.geometry.path import Path
 from core.progress import Progress, silent
 from core.progress import part as part_of
 from core.units import Kind, decimals_shown, to_mm
@@ -102,31 +99,17 @@ def _count_gouges(results: Sequence[JudgedContour]) -> int:
     return sum(len(result.verdict.gouges) + len(result.verdict.wrong_side) for result in results)
 
 
-@dataclass(frozen=True, eq=False, slots=True)
-class Contours:
-    """Contours that can be searched for those near a path; `owners`: the index of each piece box's contour."""
-
-    paths: list[Path]
-    pieces: BoxTree
-    owners: Rows
-
-    @staticmethod
-    def of(paths: list[Path]) -> Contours:
-        """Index these contours, of which there must be at least one."""
-        boxes = np.concatenate([path.boxes for path in paths], axis=1)
-        return Contours(paths, BoxTree.of(boxes), np.repeat(np.arange(len(paths)), [len(path) for path in paths]))
-
-    def near(self, center: Path, radius: float) -> list[Path]:
-        """Return the contours that the cutter may reach along a path."""
-        rows = [np.unique(self.owners[pieces]) for _, pieces in near_pairs(center.boxes, self.pieces, radius)]
-        return [self.paths[row] for row in np.unique(np.concatenate(rows)).tolist()] if rows else []
-
-
 def _judge_pieces(run: ControlRun, stretch: Stretch, parted: Divided) -> list[JudgedContour]:
     """Return the verdicts on the pieces of a stretch, each with its cuts into the surfaces of the others."""
     judged = [judge_stretch(run, piece) for piece in parted.pieces]
     surfaces = {path_key(result.surface): result.surface for results in judged for result in results}
-    contours = Contours.of(list(surfaces.values()))
+    contours = list(surfaces.values())
+    tree = PathTree(contours)
+
+    def near_contours(path: Path) -> list[Path]:
+        """Return the contours that the cutter may reach along a path."""
+        return [contours[row] for row in tree.near(path, stretch.radius)]
+
     split = [(piece, *split_where_it_closes(programmed_surface(piece))) for piece in parted.pieces]
     passes = [each for piece, surface, rows in split for each in closed_passes_of(piece, surface, rows)]
     cut_away = {
@@ -135,7 +118,7 @@ def _judge_pieces(run: ControlRun, stretch: Stretch, parted: Divided) -> list[Ju
     unjudged: list[JudgedContour] = []
     for piece, results in zip(parted.pieces, judged, strict=True):
         center, own_keys = results[0].center, {path_key(result.surface) for result in results}
-        near = {path_key(contour): contour for contour in contours.near(center, stretch.radius)}
+        near = {path_key(contour): contour for contour in near_contours(center)}
         other_walls = {key: contour for key, contour in near.items() if key not in own_keys}
         whole_walls = [contour for key, contour in other_walls.items() if key not in cut_away]
         cuts = cuts_into(run, stretch, center, whole_walls)
@@ -154,7 +137,7 @@ def _judge_pieces(run: ControlRun, stretch: Stretch, parted: Divided) -> list[Ju
     results[0] = replace(results[0], cut_away=tuple(cut_away.values()))
     # a lead passes over contours that it would cut if it were as low as they are
     leads = ((lead, lead.path()) for lead in parted.leads)
-    over = (lead for lead, path in leads if cuts_into(run, stretch, path, contours.near(path, stretch.radius)).gouges)
+    over = (lead for lead, path in leads if cuts_into(run, stretch, path, near_contours(path)).gouges)
     if passing := (*parted.links, *over):
         lines = sorted({line for moves in passing for line in moves.lines[1:].tolist()})
         lowest = min(float(moves.points[:, 2].min()) for moves in passing)

@@ -47,24 +47,30 @@ class CutContour:
     setup: int = 0
 
 
+class PathTree:
+    """A search tree of the boxes of paths, of which there is at least one; `owners`: the index of each box's path."""
+
+    def __init__(self, paths: Sequence[Path]) -> None:
+        self.boxes = BoxTree.of(np.concatenate([path.boxes for path in paths], axis=1))
+        self.owners = np.repeat(np.arange(len(paths)), [len(path) for path in paths])
+
+    def near(self, path: Path, reach: float) -> list[int]:
+        """Return the indices of the paths of which a box is no farther from a box of `path` than `reach`."""
+        rows = [np.unique(self.owners[boxes]) for _, boxes in near_pairs(path.boxes, self.boxes, reach)]
+        indices: list[int] = np.unique(np.concatenate(rows)).tolist() if rows else []
+        return indices
+
+
 class _CutContours:
-    """Contours, with a search tree of the box around each."""
+    """Contours that can be searched for those near a path."""
 
     def __init__(self, contours: Sequence[CutContour]) -> None:
-        self.contours = contours
-        self.boxes = [contour.path.boxes for contour in contours]
-        outer = [np.concatenate((boxes[:2].min(axis=1), boxes[2:].max(axis=1))) for boxes in self.boxes]
-        self.tree = BoxTree.of(np.column_stack(outer))
+        self.contours, self.tree = contours, PathTree([contour.path for contour in contours])
 
     def near(self, path: Path, reach: float, setup: int) -> list[CutContour]:
-        """Return the contours of a setup of which a box is no farther from a box of a path than `reach`."""
-        rows = sorted({row for _, rows in near_pairs(path.boxes, self.tree, reach) for row in rows.tolist()})
-        return [
-            self.contours[row]
-            for row in rows
-            if self.contours[row].setup == setup
-            and any(len(pairs) for pairs, _ in near_pairs(path.boxes, self.boxes[row], reach))
-        ]
+        """Return the contours of a setup that the tool may reach along a path."""
+        near = (self.contours[row] for row in self.tree.near(path, reach))
+        return [contour for contour in near if contour.setup == setup]
 
 
 def highest_cut(stretch: Stretch) -> float:
