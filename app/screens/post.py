@@ -27,6 +27,7 @@ from app.widgets.softkeys import Softkey
 from app.widgets.status import SPACED_UNITS, Prompt
 from app.widgets.verdict import MARKS_OF_CHARACTERS
 from core.controls.control_names import display_name
+from core.controls.registry import is_klartext
 from core.program.edit import FormPlace
 from core.program.file.read import StoreError
 from core.progress import Stopped
@@ -36,6 +37,11 @@ if TYPE_CHECKING:
 
 PREVIEW_LINES: Final = 40
 """Most lines of the NC text in the preview."""
+
+
+def usual_suffix(choice: str) -> str:
+    """Return the suffix of an NC file for a control: one that reads Klartext lists only .h as such programs."""
+    return ".h" if choice != CENTER_PATH and is_klartext(choice) else ".nc"
 
 
 class PostScreen(EntryScreen):
@@ -78,10 +84,10 @@ class PostScreen(EntryScreen):
     def on_mount(self) -> None:
         """Preselect the choice of the last posting, at first the path of the tool's center."""
         self.choice = self.host.posted_for
+        self._fit_suffix()
         controls = self.query_one("#post-controls", OptionList)
         controls.border_title = "CONTROL"
         controls.highlighted = controls.get_option_index(self.choice)
-        self.query_one("#post-preview").border_title = "NC FILE"
 
     def show_session(self, session: Session) -> None:
         """Make the text again if the program has changed; otherwise just update the findings."""
@@ -94,8 +100,15 @@ class PostScreen(EntryScreen):
     def _control_chosen(self, event: OptionList.OptionHighlighted) -> None:
         if event.option_id is not None and event.option_id != self.choice:
             self.choice = event.option_id
+            self._fit_suffix()
             self.clear_notice()
             self._make(self.current_session.program)
+
+    def _fit_suffix(self) -> None:
+        """Give the name the usual suffix for the control, unless one that is not usual was typed."""
+        path, suffix = Path(self.text), usual_suffix(self.choice)
+        if path.suffix in (".nc", ".h") and path.suffix != suffix:
+            self._text = self.query_one("#entry", Input).value = str(path.with_suffix(suffix))
 
     @on(OptionList.OptionSelected, "#post-controls")
     def _control_taken(self) -> None:
@@ -235,7 +248,7 @@ class PostScreen(EntryScreen):
                 raise StoreError(f"NOT POSTED: {made.against[0]}")
             return made.text
 
-        written = await self.host.write_made(text, ".nc", make)
+        written = await self.host.write_made(text, usual_suffix(choice), make)
         if written is None:
             return
         self.host.posted_for = choice

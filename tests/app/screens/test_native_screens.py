@@ -175,6 +175,31 @@ async def test_posting_writes_the_text_that_was_shown(tmp_path, monkeypatch):
         assert not isinstance(user.app.screen, PostScreen)
 
 
+async def test_klartext_is_posted_to_a_file_that_the_control_lists(tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    async with operator("plate-mm") as user:
+        await run(user, "app.post")
+        await user.press("f2", *"hei", "enter")
+        await user.finish()
+        entry = user.screen.query_one("#entry", Input)
+        assert entry.value == "part.h"
+        await user.press("f1")
+        await user.finish()
+        assert (tmp_path / "part.h").read_text().startswith("0 BEGIN PGM part MM")
+        await run(user, "app.post")
+        entry = user.screen.query_one("#entry", Input)
+        assert entry.value == "part.h"
+        await user.press("'plate", "f2", "home", "enter")
+        await user.finish()
+        await user.press("f1")
+        await user.finish()
+        assert (tmp_path / "plate.nc").exists()
+        await run(user, "app.post")
+        entry = user.screen.query_one("#entry", Input)
+        await user.press("'plate.tap", "f2", *"hei", "enter")
+        assert entry.value == "plate.tap", "another suffix that was typed stays"
+
+
 async def test_post_preselects_the_control_of_the_last_post(tmp_path, monkeypatch):
     monkeypatch.chdir(tmp_path)
     async with operator("plate-mm") as user:
