@@ -44,7 +44,6 @@ class DerivationActions(App[int]):
     """The character set of drawings and signs."""
 
     _works: tuple[Work, ...] = ()
-    _work_timer: Timer | None = None
     _deriving: Program | None = None
     """The program that is being derived."""
     stopped: Program | DerivedBlock | None = None
@@ -68,22 +67,18 @@ class DerivationActions(App[int]):
 
         The thread then raises Stopped at its next report, and also if the worker that waits for it is canceled.
         """
-        work = Work(on_stop)
+        work, timer = Work(on_stop), self.set_interval(SECONDS_BEFORE_PROGRESS, self.show_work)
         self._works = (*self._works, work)
-        if self._work_timer is None:
-            self._work_timer = self.set_interval(SECONDS_BEFORE_PROGRESS, self.show_work)
         try:
             yield work
         finally:
+            timer.stop()
             self._end_work(work)
 
     def _end_work(self, work: Work) -> None:
         work.stopped = True
         self._works = tuple(each for each in self._works if each is not work)
-        if not self._works and self._work_timer is not None:
-            self._work_timer.stop()
-            self._work_timer = None
-            self.show_work()
+        self.show_work()
 
     @property
     def longest_work(self) -> Work | None:
@@ -108,7 +103,6 @@ class DerivationActions(App[int]):
             if each.stoppable:
                 self._end_work(each)
                 each.on_stop()
-        self.show_work()
 
     # ---- the program, its table, and advice
 

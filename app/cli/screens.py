@@ -22,6 +22,8 @@ from app.documents.settings import SettingsFile, load_settings, settings_file
 from app.documents.time_limits import EXIT_SECONDS
 
 if TYPE_CHECKING:
+    from textual.driver import Driver
+
     from app.app import CutcompApp
     from core.pipeline.checking import CheckRequest
 
@@ -115,24 +117,29 @@ def make_app(
     from app.file_actions import session_of
     from app.terminal import capabilities, driver
 
-    browser = in_browser()
     driver.teach()
-    if not browser and capabilities.monochrome(os.environ):
-        os.environ["NO_COLOR"] = "1"
+    driver_class: type[Driver]
+    if in_browser():
+        from app.terminal.browser import BrowserDriver
+
+        driver_class, character_sets, few_colors = BrowserDriver, capabilities.CHARACTER_SETS, False
+    else:
+        if capabilities.monochrome(os.environ):
+            os.environ["NO_COLOR"] = "1"
+        environment = capabilities.operators_environment(os.environ)
+        name, character_sets = capabilities.characters(environment, options.characters)
+        capabilities.set_charset(sys.__stderr__, name)
+        driver_class, few_colors = driver.TerminalDriver, capabilities.few_colors(os.environ)
     settings, trouble = load_settings(settings_file())
     if trouble and opened.notice is None:
         opened = replace(opened, notice=Notice(trouble, warning=True))
-    environment = capabilities.operators_environment(os.environ)
-    name, character_sets = (
-        ("", capabilities.CHARACTER_SETS) if browser else capabilities.characters(environment, options.characters)
-    )
     if settings.characters in character_sets and not options.characters:
         character_sets = (settings.characters, *(each for each in character_sets if each != settings.characters))
     program = opened.document if isinstance(opened.document, ContourDocument) else ContourDocument.of(empty_program())
     app = CutcompApp(
         session_of(program),
         character_sets=character_sets,
-        few_colors=not browser and capabilities.few_colors(os.environ),
+        few_colors=few_colors,
         light=options.light or settings.theme == "light",
         service=service,
         opened=opened,
@@ -140,13 +147,7 @@ def make_app(
         home=home,
         check_request=check_request,
     )
-    if browser:
-        from app.terminal.browser import BrowserDriver
-
-        app.driver_class = BrowserDriver
-    else:
-        app.driver_class = driver.TerminalDriver
-        capabilities.set_charset(sys.__stderr__, name)
+    app.driver_class = driver_class
     return app
 
 

@@ -414,8 +414,7 @@ class DocumentService:
         state = replace(fresh.file, opening=document.file.opening)
         taken = entry.latest = replace(fresh, file=state)
         opened = self._next_offer(taken, kept_copy)
-        notice = opened.notice or Notice(f"{name_of(taken)} is yours now.")
-        return Opened(opened.document, notice, opened.offer)
+        return replace(opened, notice=opened.notice or Notice(f"{name_of(taken)} is yours now."))
 
     def _restore(
         self, entry: _OpenDocument, document: AnyDocument, path: Path, journal: Journal
@@ -431,14 +430,12 @@ class DocumentService:
             entry.journal = None
             return Opened(work, Notice(f"Restored. Not on disk: {_reason(error)}", warning=True))
         copy = f" {whole_name(aside)} holds a copy: Ctrl+O lists it." if aside is not None else ""
-        whose = self._whose(journal.owner)
-        return Opened(work, Notice(f"{whose} Ctrl+Z undoes it step by step, Ctrl+S saves it.{copy}"))
-
-    def _whose(self, owner: Owner) -> str:
-        """Return the sentence that says whose work was restored."""
+        owner, whose = journal.owner, "Your work is back."
         if (owner.user, owner.host) != (self.me.user, self.me.host):
-            return f"The work of {person(owner)} is here."
-        return "The other terminal's work is here." if alive(owner) and owner != self.me else "Your work is back."
+            whose = f"The work of {person(owner)} is here."
+        elif alive(owner) and owner != self.me:
+            whose = "The other terminal's work is here."
+        return Opened(work, Notice(f"{whose} Ctrl+Z undoes it step by step, Ctrl+S saves it.{copy}"))
 
     def _journal_of_restored(self, entry: _OpenDocument, work: Document, path: Path, journal: Journal) -> Path | None:
         """Begin a journal with the restored work; return the old journal's path unless it is replaced or gone."""
@@ -520,28 +517,22 @@ class DocumentService:
 
         When a QuestionText comes back, call again with its answer added to `agreed`.
         """
+        entry, file = self._entry(document), document.file.path
+        target = file if path is None else paths.resolved_name(path, file)
+        if target is None:
+            return Trouble(f"{name_of(document)} has no name yet. SAVE AS (Ctrl+K) gives it one.")
         try:
-            return self._save(document, path, agreed)
+            if document.kind is Kind.CONTOUR and target != file:
+                target = paths.as_program(target)
+            if (trouble := self._refusal(document, target)) is not None:
+                return trouble
+            if target == file:
+                return self._save_own(entry, document, target, agreed)
+            ask = None if agreed else questions.before_writing(target, file, held_by(target))
+            return ask or self._write_file(entry, document, target, None)
         except OSError as error:
             # for example, the current folder is gone
             return Trouble(f"{name_of(document)} is not saved: {files.why(error)}")
-
-    def _save(
-        self, document: AnyDocument, path: Path | None, agreed: frozenset[str]
-    ) -> Saved[AnyDocument] | QuestionText | Trouble:
-        entry, file = self._entry(document), document.file.path
-        if path is None and file is None:
-            return Trouble(f"{name_of(document)} has no name yet. SAVE AS (Ctrl+K) gives it one.")
-        target = file if path is None else paths.resolved_name(path, file)
-        assert target is not None
-        if document.kind is Kind.CONTOUR and target != file:
-            target = paths.as_program(target)
-        if (trouble := self._refusal(document, target)) is not None:
-            return trouble
-        if target != file:
-            ask = None if agreed else questions.before_writing(target, file, held_by(target))
-            return ask or self._write_file(entry, document, target, None)
-        return self._save_own(entry, document, target, agreed)
 
     def _refusal(self, document: Document, target: Path) -> Trouble | None:
         """Return why a file cannot be written, whatever the operator answers; None if it can."""
@@ -604,8 +595,12 @@ class DocumentService:
         now = files.stamp_of_data(data, status.st_mtime_ns)
         if then is not None and now.same_content(then):
             return None
+        readable = False
+        with suppress(StoreError):
+            type(document).read(data, document.file)
+            readable = True
         written = times.in_words(times.of_file(now.changed), today)
-        return questions.changed_meanwhile(document, written, copy, readable=_readable(document, data))
+        return questions.changed_meanwhile(document, written, copy, readable=readable)
 
     def _write_file(
         self, entry: _OpenDocument, document: AnyDocument, path: Path, theirs: Path | None, *, link_agreed: bool = False
@@ -671,15 +666,6 @@ def _real_path(path: Path | None) -> str | None:
     except OSError:
         # the current folder is gone
         return str(path)
-
-
-def _readable(document: Document, data: bytes) -> bool:
-    """True if a file's content can be opened as a document of this kind."""
-    try:
-        type(document).read(data, document.file)
-    except StoreError:
-        return False
-    return True
 
 
 def _leads_elsewhere(path: Path) -> bool:

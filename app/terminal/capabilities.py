@@ -30,7 +30,7 @@ LOOKALIKES: Final = str.maketrans("│┃─━├┤▀▄█…→↗↑↖←
 LOOKALIKE_ERRORS: Final = "cutcomp.lookalike"
 FIRST_FRAME, LAST_FRAME, LAST_BLOCK = "\u2500", "\u257f", "\u259f"
 FIRST_BRAILLE, LAST_BRAILLE = "\u2801", "\u28ff"
-CHARACTER_SETS: Final = ("braille", "block", "ascii")
+CHARACTER_SETS: Final[tuple[str, ...]] = ("braille", "block", "ascii")
 """The character sets that a drawing can be made of."""
 UNFIT_TERMS: Final = ("dumb", "unknown", "")
 """Values of TERM for terminals that cannot position the cursor."""
