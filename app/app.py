@@ -23,6 +23,8 @@ from app.documents.document import ContourDocument, NcDocument
 from app.documents.document_service import DocumentService, Opened
 from app.documents.paths import current_folder
 from app.documents.settings import SettingsFile
+from app.documents.time_limits import Disk
+from app.file_actions import session_of
 from app.screens.base import HEIGHT_CLASSES, WIDTH_CLASSES, BaseScreen, OpeningScreen
 from app.screens.contour import ContourScreen
 from app.session.block_findings import Entry
@@ -81,7 +83,7 @@ class CutcompApp(TransformActions):
 
     def __init__(
         self,
-        session: Session,
+        session: Session | None = None,
         *,
         surroundings: Surroundings | None = None,
         few_colors: bool = False,
@@ -95,7 +97,7 @@ class CutcompApp(TransformActions):
     ) -> None:
         super().__init__(ansi_color=few_colors or None)
         self.surroundings = surroundings or Surroundings()
-        self.service = service or DocumentService()
+        self.service, self.disk = service or DocumentService(), Disk()
         self._opened, self._home, self._check_request = opened, home, check_request
         self.drawing: Path | None = None
         self.settings_file = settings_file or SettingsFile()
@@ -106,6 +108,7 @@ class CutcompApp(TransformActions):
         self.set_reactive(CutcompApp.characters, character_sets[0])
         self.posted_for = CENTER_PATH
         """The control of the last posted NC file, or the center path."""
+        session = session or session_of(self.document)
         self.set_reactive(CutcompApp.session, session)
         self.set_reactive(CutcompApp.displayed, session)
         for each in theme.themes():

@@ -48,10 +48,7 @@ class FileActions(DerivationActions):
     service: DocumentService
     document: ContourDocument
     settings_file: SettingsFile
-
-    def __init__(self, *, ansi_color: bool | None = None) -> None:
-        super().__init__(ansi_color=ansi_color)
-        self.disk = Disk()
+    disk: Disk
 
     def show_drawing(self, path: Path, *, fresh: bool = False) -> None:
         """Open IMPORT on a drawing for the open program, which takes the drawing's unit if it is `fresh`."""

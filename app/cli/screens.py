@@ -13,11 +13,10 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from app.cli.shell import NOTHING_ASKED, STATUS_UNUSABLE, TerminalOptions, Unusable, prepare, reported, say
-from app.documents.document import ContourDocument
 from app.documents.document_service import DocumentService, Notice, Opened, Trouble
 from app.documents.nc_text import NC_SUFFIXES
 from app.documents.paths import is_drawing, is_folder, program_named
-from app.documents.programs import empty_program, is_nc
+from app.documents.programs import is_nc
 from app.documents.settings import SettingsFile, load_settings, settings_file
 from app.documents.time_limits import EXIT_SECONDS
 
@@ -114,7 +113,6 @@ def make_app(
 ) -> CutcompApp:
     """Return the App on a document, set up for the terminal and with the settings of last time."""
     from app.app import CutcompApp
-    from app.file_actions import session_of
     from app.terminal import capabilities, driver
 
     driver.teach()
@@ -135,9 +133,7 @@ def make_app(
         opened = replace(opened, notice=Notice(trouble, warning=True))
     if settings.characters in character_sets and not options.characters:
         character_sets = (settings.characters, *(each for each in character_sets if each != settings.characters))
-    program = opened.document if isinstance(opened.document, ContourDocument) else ContourDocument.of(empty_program())
     app = CutcompApp(
-        session_of(program),
         character_sets=character_sets,
         few_colors=few_colors,
         light=options.light or settings.theme == "light",
