@@ -13,7 +13,7 @@ from pathlib import Path
 from shlex import quote
 from typing import Final
 
-from app.cli.control_options import add_options, bytes_of, control_of, tools_of, unit_of
+from app.cli.control_options import add_options, bytes_of, control_of, tools_of
 from app.cli.shell import STATUS_CLEAN, STATUS_FINDINGS, STATUS_UNUSABLE, Unusable, reported, say
 from app.documents.nc_library import called_program
 from app.documents.nc_text import NC_SUFFIXES
@@ -37,7 +37,7 @@ def check(arguments: list[str]) -> int:
     """Run the command; return 0 for clean, 1 for errors found, 2 for input that cannot be used."""
     options = _parser().parse_args(arguments)
     control = "all" if options.control.strip().lower() == "all" else control_of(options.control)
-    request = CheckRequest(control, tools_of(options), options.shop, unit_of(options))
+    request = CheckRequest(control, tools_of(options), options.shop, Unit(options.units) if options.units else None)
     paths = list(_programs(options.files))
     if options.contour:
         return _contours(paths, request)

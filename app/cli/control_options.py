@@ -47,11 +47,6 @@ def control_of(text: str) -> str:
     return control
 
 
-def unit_of(options: argparse.Namespace) -> Unit | None:
-    """Return the unit that --units names; None without it."""
-    return Unit(options.units) if options.units else None
-
-
 def tools_of(options: argparse.Namespace) -> ToolTable:
     """Return the tools that --tools and --tool name; raise Unusable if they cannot be read."""
     table: ToolTable = {}

@@ -71,8 +71,9 @@ def proof(arguments: list[str]) -> int:
     """Run the command; return the exit status."""
     import argparse
 
-    from app.cli.control_options import add_options, control_of, tools_of, unit_of
+    from app.cli.control_options import add_options, control_of, tools_of
     from core.pipeline.checking import CheckRequest
+    from core.units import Unit
 
     parser = argparse.ArgumentParser(
         "cutcomp proof", description="The listing of an NC program, the path a control makes of it, and its findings."
@@ -82,7 +83,7 @@ def proof(arguments: list[str]) -> int:
     add_options(parser)
     options = parser.parse_args(arguments)
     control = "" if options.control is None else control_of(options.control)
-    request = CheckRequest(control, tools_of(options), shop=False, unit=unit_of(options))
+    request = CheckRequest(control, tools_of(options), shop=False, unit=Unit(options.units) if options.units else None)
     if options.file.is_file() and not is_nc(options.file):
         raise Unusable(f"{options.file} is a program, not an NC file: cutcomp {options.file} opens it.")
     prepare()

@@ -283,7 +283,7 @@ class DocumentService:
         """True if a document's file differs from what was last read or saved."""
         path, then = document.file.path, document.file.stamp
         now = None if path is None else files.stamp_of(path, MAX_BYTES[document.kind])
-        return (now is None) is not (then is None) or not (now is None or then is None or now.same_content(then))
+        return not now.same_content(then) if now is not None else then is not None
 
     def _read(self, path: Path, kept_copy: Path | None) -> Document:
         """Read a file; return an empty document for a new file or for unsaved work alone, else raise StoreError."""
@@ -582,7 +582,6 @@ class DocumentService:
 
     def _ask_if_changed(self, document: Document, path: Path, copy: Path, today: str) -> QuestionText | Trouble | None:
         """Return a question if the file differs from what was last read or saved, Trouble if it cannot be read."""
-        then = document.file.stamp
         try:
             data, status = files.read_file(path, MAX_BYTES[document.kind])
         except FileNotFoundError:
@@ -593,7 +592,7 @@ class DocumentService:
                 f"{paths.short_path(path)} is not saved over what cannot be read: {reason}. {SAVE_ELSEWHERE}"
             )
         now = files.stamp_of_data(data, status.st_mtime_ns)
-        if then is not None and now.same_content(then):
+        if now.same_content(document.file.stamp):
             return None
         readable = False
         with suppress(StoreError):

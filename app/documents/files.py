@@ -49,9 +49,9 @@ class Stamp:
     changed: int
     digest: str
 
-    def same_content(self, other: Stamp) -> bool:
+    def same_content(self, other: Stamp | None) -> bool:
         """True if the contents are the same; the time does not count, since a copy changes it."""
-        return (self.size, self.digest) == (other.size, other.digest)
+        return other is not None and (self.size, self.digest) == (other.size, other.digest)
 
 
 class NotAFileError(OSError):

@@ -205,12 +205,14 @@ def _begun(record: Record) -> Journal:
         case _:
             raise DamagedError
     match record:
-        case {"owner": owner, "file": None | str() as file, "stamp": stamp}:
+        case {"owner": owner, "file": None | str() as file, "stamp": None | [int(), int(), str()] as values}:
+            stamp = None if values is None else Stamp(*values)
             if file is not None and (not Path(file).name or b"\0" in os.fsencode(file)):
                 # no file can have this path
                 raise DamagedError
-            place, time = _place_of(record), _text_of(record.get("time"))
-            return Journal(owner_of(owner), file, _stamp_of(stamp), work, place, time)
+            if stamp is not None and not _DIGEST.fullmatch(stamp.digest):
+                raise DamagedError
+            return Journal(owner_of(owner), file, stamp, work, _place_of(record), _text_of(record.get("time")))
         case _:
             raise DamagedError
 
@@ -282,16 +284,6 @@ def _unpacked(values: object) -> NcText:
     if text.encoding != encoding or not unpacking.eof:
         raise DamagedError
     return replace(text, origin=b"", saved=NEVER_SAVED)
-
-
-def _stamp_of(values: object) -> Stamp | None:
-    match values:
-        case None:
-            return None
-        case [int(size), int(time), str(digest)] if _DIGEST.fullmatch(digest):
-            return Stamp(size, time, digest)
-        case _:
-            raise DamagedError
 
 
 def _place_of(record: Record) -> Place:

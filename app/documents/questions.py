@@ -205,7 +205,7 @@ def unsaved_work(
         lines.append(f"{printable(path.name)} itself cannot be read; it stays as it is.")
     elif path is not None and now is None and document.kind is Kind.NC:
         lines.append("The file is gone. Saving writes it again.")
-    elif now is not None and (journal.stamp is None or not now.same_content(journal.stamp)):
+    elif now is not None and not now.same_content(journal.stamp):
         lines.append("The file was written since: by somebody else, or by this program just before its end.")
     if living and owner != me:
         lines.append("The other terminal may still be in use. It is warned before it saves.")
