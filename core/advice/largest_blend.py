@@ -43,12 +43,14 @@ def with_largest_blend(
     largest = largest_blend(paths, side, size, typed, progress)
     if largest is None:
         return tuple(findings)
-    return tuple(_with_value(each, largest) if each.code in BLEND_CODES else each for each in findings)
-
-
-def _with_value(finding: Finding, largest: float) -> Finding:
     fits = "the largest that fits here is {0}" if largest else "only 0 fits here"
-    return replace(finding, text=f"{finding.text.removesuffix('.')}: {fits}.", lengths=(largest,) if largest else ())
+    lengths = (largest,) if largest else ()
+    return tuple(
+        replace(each, text=f"{each.text.removesuffix('.')}: {fits}.", lengths=lengths)
+        if each.code in BLEND_CODES
+        else each
+        for each in findings
+    )
 
 
 def largest_blend(
@@ -77,7 +79,12 @@ def largest_blend(
     while too_large - fitting > 1:
         middle = (fitting + too_large) // 2
         fitting, too_large = (middle, too_large) if fits(middle) else (fitting, middle)
-    return size(fitting) if fitting or not _gouges_without_blends(surface, paths) else None
+    if fitting:
+        return size(fitting)
+    assert paths.verdict is not None
+    alone = [loop.path for loop in paths.loops]
+    gouges = judge_prepared(surface, paths.verdict.radius, alone, measures_uncut=False).gouges
+    return None if gouges else size(0)
 
 
 def _passes(paths: BlockPaths) -> Iterator[tuple[tuple[CenterPath, ...], float, float]]:
@@ -103,9 +110,3 @@ def _arcs(loop: CenterPath, side: Side, blend: float) -> tuple[Path, Path]:
     overlap = loop.lead_out.part(0, len(loop.lead_out) - 1) if len(loop.lead_out) else loop.lead_out
     last = overlap if len(overlap) else loop.path
     return blend_in(loop.path, side, blend), blend_out(last, side, blend, 0.0, closed=False)
-
-
-def _gouges_without_blends(surface: Surface, paths: BlockPaths) -> bool:
-    assert paths.verdict is not None
-    alone = [loop.path for loop in paths.loops]
-    return bool(judge_prepared(surface, paths.verdict.radius, alone, measures_uncut=False).gouges)

@@ -111,7 +111,8 @@ def largest_tool(setup: CuttingSetup, progress: Progress = silent, *, least: int
     fitting, too_large = least, _steps(setup, 2.0 * setup.radius)
     if fitting >= too_large or (fitting and not _clean(setup, fitting, progress)):
         return None
-    limit = _smallest_inside_radius(setup)
+    surface = setup.surface
+    limit = min(surface.radii[surface.turns * setup.side.sign > 0].tolist(), default=None)
     first_sizes = [] if limit is None else [_steps(setup, 2.0 * limit), _steps(setup, 2.0 * limit) + 1]
     while too_large - fitting > 1:
         size = first_sizes.pop(0) if first_sizes else (fitting + too_large) // 2
@@ -127,12 +128,6 @@ def largest_tool(setup: CuttingSetup, progress: Progress = silent, *, least: int
     fits = 0 if limit is None else _steps(setup, 2.0 * limit)
     uncut_radius = (limit, fits * setup.diameter_step) if limit is not None and 0 < fits < fitting else ()
     return ToolFits(fitting * setup.diameter_step, row.value, uncut_radius)
-
-
-def _smallest_inside_radius(setup: CuttingSetup) -> float | None:
-    surface = setup.surface
-    radii: list[float] = surface.radii[surface.turns * setup.side.sign > 0].tolist()
-    return min(radii, default=None)
 
 
 def _clean(setup: CuttingSetup, size: int, progress: Progress) -> bool:

@@ -53,35 +53,21 @@ def _not_arcs(contour: Path) -> tuple[Finding, ...]:
     If the radii differ by less, an arc whose ends are on one ray from its center may be a full turn or empty.
     """
     rows = contour.turns.nonzero()[0]
-    if not len(rows):
-        return ()
     points, centers = as_complex(contour.points), as_complex(contour.centers)[rows]
-    start, end = points[rows], points[rows + 1]
-    first, last = np.abs(start - centers), np.abs(end - centers)
-    difference = np.abs(first - last)
-    if difference.max() <= JOINED and first.min() > 2.0 * JOINED:
-        return ()
-    without_radius = (np.minimum(first, last) <= JOINED) & (np.abs(end - start) > JOINED)
-    bad = (difference > ARC_RADII) | without_radius
-    text = "Radius {0} at start, {1} at end. Check X CENTER, Y CENTER."
-    errors = _arcs_named("ARC_RADII", text, contour.numbers[rows], bad, first, last)
-    doubtful = (~bad & (difference > JOINED)).nonzero()[0]
-    if not len(doubtful):
-        return errors
-    across = (start - centers)[doubtful].conj() * (end - centers)[doubtful]
-    on_one_ray = (np.abs(across.imag) <= JOINED * first[doubtful]) & (across.real > 0.0)
-    text = "The arc ends next to its start, {0} and {1} from its center. "
-    text += "Move the end to the start for a full circle, or farther away."
-    rows, first, last = rows[doubtful], first[doubtful], last[doubtful]
-    return (*errors, *_arcs_named("ARC_ENDS", text, contour.numbers[rows], on_one_ray, first, last))
-
-
-def _arcs_named(code: str, text: str, numbers: Floats, bad: Flags, first: Floats, last: Floats) -> tuple[Finding, ...]:
-    """Return an error for each bad arc, with its radii."""
-    return tuple(
-        Finding(code, Severity.ERROR, text, float(numbers[row]), lengths=(float(first[row]), float(last[row])))
-        for row in bad.nonzero()[0][:MAX_NAMED_PLACES].tolist()
-    )
+    first, last = np.abs(points[rows] - centers), np.abs(points[rows + 1] - centers)
+    radii, ends = list[Finding](), list[Finding]()
+    for row in ((np.abs(first - last) > JOINED) | (np.minimum(first, last) <= 2.0 * JOINED)).nonzero()[0].tolist():
+        start, end = (complex(points[rows[row] + at] - centers[row]) for at in (0, 1))
+        lengths, across = (float(first[row]), float(last[row])), start.conjugate() * end
+        difference, number = abs(lengths[0] - lengths[1]), float(contour.numbers[rows[row]])
+        if difference > ARC_RADII or (min(lengths) <= JOINED and abs(end - start) > JOINED):
+            text = "Radius {0} at start, {1} at end. Check X CENTER, Y CENTER."
+            radii.append(Finding("ARC_RADII", Severity.ERROR, text, number, lengths=lengths))
+        elif difference > JOINED and abs(across.imag) <= JOINED * lengths[0] and across.real > 0.0:
+            text = "The arc ends next to its start, {0} and {1} from its center. "
+            text += "Move the end to the start for a full circle, or farther away."
+            ends.append(Finding("ARC_ENDS", Severity.ERROR, text, number, lengths=lengths))
+    return (*radii[:MAX_NAMED_PLACES], *ends[:MAX_NAMED_PLACES])
 
 
 def zero_length(contour: Path, rows: Rows) -> list[Finding]:

@@ -6,7 +6,7 @@ They are only drawn: arcs are chords here, off by no more than half a dot, and s
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator, Sequence
+from collections.abc import Iterable, Sequence
 from itertools import pairwise
 from math import isfinite
 from typing import Final
@@ -85,14 +85,14 @@ def uncut(
         (depth, path) for path, depth in zip(stretches, thicknesses, strict=True) if isfinite(depth) and depth > sag
     ]
     pairs.sort(key=lambda pair: -pair[0])
-    bands = shapely.union_all(list(_bands(pairs[:MAX_STRETCHES], sag)))
+    bands = shapely.union_all(
+        [
+            LineString(points).buffer(depth + sag, quad_segs=CHORDS_PER_QUARTER)
+            for depth, path in pairs[:MAX_STRETCHES]
+            if len(points := chords_of(path, sag)) > 1
+        ]
+    )
     return bands.difference(part).difference(swept(paths, radius, sag))
-
-
-def _bands(pairs: Iterable[tuple[float, Path]], sag: float) -> Iterator[BaseGeometry]:
-    for depth, path in pairs:
-        if len(points := chords_of(path, sag)) > 1:
-            yield LineString(points).buffer(depth + sag, quad_segs=CHORDS_PER_QUARTER)
 
 
 def inside(region: BaseGeometry, x: Floats, y: Floats) -> NDArray[np.bool_]:

@@ -12,7 +12,7 @@ from cmath import phase
 from dataclasses import dataclass, replace
 from enum import Enum, auto
 from math import asin, pi, sin, tan, tau
-from typing import Final, NamedTuple
+from typing import Final
 
 from core.geometry.carrier import carrier, meeting_points
 from core.geometry.construct import rotated
@@ -65,9 +65,9 @@ def fillet(before: Piece, after: Piece, radius: float) -> Corner | NoCorner:
     if lines and abs(turn_angle) > tau / 2 - ANGLE_ROUNDING:
         return NoCorner(Reason.REVERSAL)
     turns = (Turn.CCW if turn_angle > 0 else Turn.CW,) if lines else (Turn.CCW, Turn.CW)
-    fits = [fit for turn in turns for fit in _touching_arcs(before, after, radius, turn)]
+    fits = [fit for turn in turns for fit in _rounded_corners(before, after, radius, turn)]
     if fits:
-        return _rounded_corner(before, after, min(fits, key=lambda fit: fit.removed).arc)
+        return min(fits, key=lambda fit: fit[0])[1]
     if lines:
         return NoCorner(Reason.TOO_LARGE, min(before.length, after.length) / tan(abs(turn_angle) / 2))
     return NoCorner(Reason.TOO_LARGE, _largest_radius(before, after, radius))
@@ -80,7 +80,7 @@ def _largest_radius(before: Piece, after: Piece, too_large: float) -> float | No
     """
 
     def fits(radius: float) -> bool:
-        return any(_touching_arcs(before, after, radius, turn) for turn in (Turn.CCW, Turn.CW))
+        return any(_rounded_corners(before, after, radius, turn) for turn in (Turn.CCW, Turn.CW))
 
     fitting = 0.0
     for tried in (too_large * share / TRIED_RADII for share in range(TRIED_RADII - 1, 0, -1)):
@@ -94,14 +94,8 @@ def _largest_radius(before: Piece, after: Piece, too_large: float) -> float | No
     return fitting if fitting > JOINED else None
 
 
-class _Fit(NamedTuple):
-    """A fillet arc that touches both pieces between their ends, and the length that it removes from both together."""
-
-    arc: Arc
-    removed: float
-
-
-def _touching_arcs(before: Piece, after: Piece, radius: float, turn: Turn) -> list[_Fit]:
+def _rounded_corners(before: Piece, after: Piece, radius: float, turn: Turn) -> list[tuple[float, Corner]]:
+    """Return the corners whose arc touches both pieces between their ends, each after the length that it removes."""
     fits, left = [], turn * radius
     for center in meeting_points(carrier(before, left), carrier(after, left)):
         first, last = _touch_point(before, center, left), _touch_point(after, center, left)
@@ -110,7 +104,9 @@ def _touching_arcs(before: Piece, after: Piece, radius: float, turn: Turn) -> li
         kept, removed = _travel(before, first), _travel(after, last)
         if -ON_PATH <= kept <= before.length + ON_PATH and -ON_PATH <= removed <= after.length + ON_PATH:
             arc = Arc(point_of(first), point_of(last), point_of(center), turn)
-            fits.append(_Fit(arc, before.length - kept + removed))
+            shortened = replace(before, end=arc.start) if kept > JOINED else None
+            rest = replace(after, start=arc.end) if after.length - removed > JOINED else None
+            fits.append((before.length - kept + removed, Corner(shortened, arc, rest)))
     return fits
 
 
@@ -130,15 +126,6 @@ def _travel(piece: Piece, at: complex) -> float:
     center = complex(*piece.center)
     angle = piece.turn * phase((at - center) * (start - center).conjugate()) % tau
     return piece.radius * (angle - tau if angle > tau - JOINED / piece.radius else angle)
-
-
-def _rounded_corner(before: Piece, after: Piece, arc: Arc) -> Corner:
-    kept, removed = _travel(before, complex(*arc.start)), _travel(after, complex(*arc.end))
-    return Corner(
-        replace(before, end=arc.start) if kept > JOINED else None,
-        arc,
-        replace(after, start=arc.end) if after.length - removed > JOINED else None,
-    )
 
 
 def chamfer(before: Piece, after: Piece, length: float) -> Corner | NoCorner:

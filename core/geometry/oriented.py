@@ -1,10 +1,8 @@
 """Oriented lines and circles: every point where two of them meet or touch, in a fixed order.
 
-A contour is traveled, so each of its lines and circles has a direction.  A line of heading t has the left normal
-n = (-sin t, cos t) and the points X with n.X = p.  A circle has a center c and a signed radius rho, positive
-counterclockwise; travel has heading t at its point c - rho n.  A point is a circle of rho 0.
-Two of them touch without doubling back if n.c - p = rho (line and circle) or |c - c'| = |rho - rho'| (two
-circles): one equation for every case.  Millimeters and radians.
+A line of heading t has the left normal n = (-sin t, cos t) and the points X with n.X = p.  A circle has a center c and
+a signed radius rho, positive counterclockwise; travel has heading t at its point c - rho n.  A point is a circle of rho
+0.  One equation covers every smooth joint (CALCULATED_RUNS.md, section 1).  Millimeters and radians.
 """
 
 from __future__ import annotations

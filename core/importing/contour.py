@@ -81,6 +81,11 @@ class Contour:
         return self.pieces[0].start
 
     @property
+    def end(self) -> Point:
+        """The end point."""
+        return self.pieces[-1].end
+
+    @property
     def turn(self) -> Turn:
         """The direction of travel; NONE for an open contour."""
         if not self.closed:
@@ -138,7 +143,7 @@ def started_at_usual_place(contour: Contour) -> Contour:
 def started_at(contour: Contour, point: Point) -> Contour:
     """Start a closed contour where it is nearest to a point, an open one at the nearer of its ends."""
     if not contour.closed:
-        first, last = (dist(point, end) for end in (contour.pieces[0].start, contour.pieces[-1].end))
+        first, last = dist(point, contour.start), dist(point, contour.end)
         return contour if first <= last else reversed_contour(contour)
     whole = _undivided(contour)
     pieces = piece_arrays(Path.from_pieces(whole.pieces))

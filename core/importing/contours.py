@@ -257,7 +257,10 @@ def _nested(contours: Sequence[Contour]) -> list[Contour]:
         listed.append(
             replace(contour, number=number, inside=0 if parent is None else numbers[parent], problems=tuple(problems))
         )
-    open_contours = sorted((contour for contour in contours if not contour.closed), key=_by_length)
+    open_contours = sorted(
+        (contour for contour in contours if not contour.closed),
+        key=lambda contour: (-round(contour.length, KEY_DECIMALS), *map(rounded, (contour.start, contour.end))),
+    )
     return listed + [replace(contour, number=len(listed) + row) for row, contour in enumerate(open_contours, 1)]
 
 
@@ -270,17 +273,10 @@ def _by_size(contours: Sequence[Contour]) -> list[Contour]:
     return sorted(contours, key=key)
 
 
-def _by_length(contour: Contour) -> tuple[float, ...]:
-    return -round(contour.length, KEY_DECIMALS), *rounded(contour.start), *rounded(contour.pieces[-1].end)
-
-
 def _open_ends(contours: Sequence[Contour]) -> list[tuple[Point, int]]:
     """Return the ends of the open contours, each with the contour's row."""
     return [
-        (end, row)
-        for row, contour in enumerate(contours)
-        if not contour.closed
-        for end in (contour.pieces[0].start, contour.pieces[-1].end)
+        (end, row) for row, contour in enumerate(contours) if not contour.closed for end in (contour.start, contour.end)
     ]
 
 

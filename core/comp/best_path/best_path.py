@@ -1,10 +1,8 @@
 """Best path: the true offset of a whole contour, with every place that the cutter can reach and none that it cannot.
 
-The control's look-ahead rule does not limit it: it is trimmed globally, also across the start, in one or more loops.
-The stages: surface, raw offset, trim, slices, clearance, stitch.  BEST_PATH.md explains them with a picture.
-
-Two kinds of contour are walls on both sides: an open contour, since the cutter could go around its ends, and a contour
-that crosses itself, in which over-run lead-ins are walls like any other segment; a finding says so.
+BEST_PATH.md explains the stages with a picture.  Two kinds of contour are walls on both sides: an open contour, since
+the cutter could go around its ends, and a contour that crosses itself, in which over-run lead-ins are walls like any
+other segment; a finding says so.
 """
 
 from __future__ import annotations
@@ -55,7 +53,11 @@ def best_path(contour: Path, side: Side, radius: float, *, closed: bool) -> Best
     if not len(surface.path):
         return BestPath((), (), surface.findings)
     crossing = crosses_itself(surface.path, closed=closed)
-    findings = surface.findings if crossing is None else (*surface.findings, _crossing_finding(crossing))
+    findings = surface.findings
+    if crossing is not None:
+        a, b = crossing
+        text = f"Segments {a:g} and {b:g} cross or touch: the best path takes every segment as a wall on both sides."
+        findings = (*findings, Finding("CROSSES_ITSELF", Severity.WARNING, text, a))
     untrimmed = raw_offset(surface.path, side, radius, closed=closed, crossing=crossing is not None)
     raw = trimmed(untrimmed, side.sign, radius)
     del untrimmed
@@ -89,12 +91,6 @@ def _best(
 def _is_rounding(stitched: StitchedSlices, rows: Rows) -> bool:
     """True if these slices are so short that rounding made them; the limit is larger where it left gaps in them."""
     return float(stitched.slices.size[rows].sum()) <= (WHISKER if (stitched.gaps[rows] > JOINED).any() else GOUGE)
-
-
-def _crossing_finding(numbers: tuple[float, float]) -> Finding:
-    a, b = numbers
-    text = f"Segments {a:g} and {b:g} cross or touch: the best path takes every segment as a wall on both sides."
-    return Finding("CROSSES_ITSELF", Severity.WARNING, text, a)
 
 
 def _joined_gap_finding(

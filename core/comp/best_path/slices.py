@@ -1,10 +1,8 @@
 """Slices: the side pieces of the raw offset cut at every self-intersection.
 
-The cutter can only become clear of the part, or cease to be, where raw pieces meet.  At a proper crossing it may only
-arrive along one piece and leave along the other so that it turns toward its free side; near the crossing, the other
-two stretches are nearer to a wall than the radius.  So a slice runs from one meeting to the next, across smooth
-joints, and one that turns the wrong way at a crossing is dead.  Nodes are the
-points where slices begin and end; points within JOINED of each other on a piece are one node.
+A slice runs from one meeting to the next, across smooth joints.  One that turns the wrong way at a crossing is dead
+(BEST_PATH.md, "Crossings").  Nodes are the points where slices begin and end; points within JOINED of each other on a
+piece are one node.
 """
 
 from __future__ import annotations
@@ -207,7 +205,9 @@ def sliced(raw: RawOffset, sign: int) -> Slices | None:
     dead[at[stations.turn < 0.0] - 1] = True
     dead[head] |= raw.blunt_start[heads]
     dead[tail] |= raw.blunt_end[tails]
-    size = _sizes(raw, piece, begin, end_piece, end)
+    traveled = np.cumsum(raw.lengths) - raw.lengths
+    # as a difference along the piece if a slice lies on a single one
+    size = np.where(piece == end_piece, end - begin, (traveled[end_piece] + end) - (traveled[piece] + begin))
     cut = Slices(piece, end_piece, begin, end, size, first, last, dead, points, outer)
     rings = (raw.start[heads] == raw.end[tails]).nonzero()[0]
     return _welded(cut, np.concatenate((first_twin, rings)), np.concatenate((second_twin, ends[rings])))
@@ -240,12 +240,6 @@ def _stations(raw: RawOffset, met: Intersections, nodes: int) -> _Stations:
     piece = piece[order]
     along = np.minimum(np.maximum(along[order], 0.0), raw.lengths[piece])
     return _Stations(piece, along, node[order], turn[order])
-
-
-def _sizes(raw: RawOffset, piece: Rows, begin: Floats, end_piece: Rows, end: Floats) -> Floats:
-    """Return the (s,) lengths of slices, as a difference along the piece if a slice lies on a single one."""
-    traveled = np.cumsum(raw.lengths) - raw.lengths
-    return np.where(piece == end_piece, end - begin, (traveled[end_piece] + end) - (traveled[piece] + begin))
 
 
 def _nodes(raw: RawOffset, met: Intersections, heads: Rows, tails: Rows) -> tuple[Points, Flags]:

@@ -52,7 +52,9 @@ def stitch(raw: RawOffset, slices: Slices, sign: int, walls: Walls, radius: floa
     """Link each clear slice to the one that follows it, and drop the slices that lead nowhere."""
     slices = _without_dead_ends(_without_doubles(raw, slices))
     while True:
-        following = _straight_on(slices)
+        # straight on: the next slice, if it begins at the node where this one ends
+        following = next_in_ring(np.arange(len(slices)))
+        following[slices.last != slices.first[following]] = -1
         _turn_at_nodes(raw, slices, following, sign)
         _bridge(slices, following, bridge_limit(radius))
         end, begin = following < 0, _without_predecessor(following)
@@ -93,13 +95,6 @@ def _without_dead_ends(slices: Slices) -> Slices:
         if not dead.any():
             return slices
         slices = slices.take((~dead).nonzero()[0])
-
-
-def _straight_on(slices: Slices) -> Rows:
-    """Return for each slice the next row if that slice begins at the node where this one ends, else -1."""
-    following = next_in_ring(np.arange(len(slices)))
-    following[slices.last != slices.first[following]] = -1
-    return following
 
 
 def _turn_at_nodes(raw: RawOffset, slices: Slices, following: Rows, sign: int) -> None:

@@ -193,14 +193,6 @@ def contradiction(text: str, field: str, *lengths: float) -> Outcome:
 # the rules of a LINE
 
 
-def _line_to_end(data: SegmentData) -> Outcome:
-    return _lines(data.start, (data.known["x_end"], data.known["y_end"]))
-
-
-def _line_by_angle_and_length(data: SegmentData) -> Outcome:
-    return _lines(data.start, construct.polar(data.start, data.known["angle"], data.known["length"]))
-
-
 def _line_by_angle_and_coordinate(axis: int, data: SegmentData) -> Outcome | None:
     """Solve a line along XY ANGLE to one end coordinate; None if the angle leaves the end open."""
     start, known = data.start, data.known
@@ -217,6 +209,10 @@ def _line_by_angle_and_coordinate(axis: int, data: SegmentData) -> Outcome | Non
         text = f"XY ANGLE {angle_text(angle)} leads away from {letter} END {{0}}. Correct one of them."
         return contradiction(text, "angle", value)
     return _lines(start, end)
+
+
+def _line_by_angle_and_length(data: SegmentData) -> Outcome:
+    return _lines(data.start, construct.polar(data.start, data.known["angle"], data.known["length"]))
 
 
 def _line_by_length_and_coordinate(axis: int, data: SegmentData) -> Outcome:
@@ -237,7 +233,7 @@ LINE_KIND: Final = SegmentKind(
     Form.LINE,
     ("x_end", "y_end", "length", "angle"),
     (
-        Rule(frozenset(("x_end", "y_end")), _line_to_end),
+        Rule(frozenset(("x_end", "y_end")), lambda data: _lines(data.start, _point(data.known, _END))),
         Rule(frozenset(("x_end", "angle")), partial(_line_by_angle_and_coordinate, 0)),
         Rule(frozenset(("y_end", "angle")), partial(_line_by_angle_and_coordinate, 1)),
         Rule(frozenset(("length", "angle")), _line_by_angle_and_length),

@@ -1,9 +1,6 @@
 """This module decides which segments are solved together as a run, solves the run and fills in its segments.
 
-A run begins at the first segment that its own fields do not determine, or that refers to a point or a segment.  It is
-as short as the solver allows.  If several solutions are left and the next segment is tied to the last one (TANGENT, a
-relative angle), the run grows while that leaves fewer.  It skips BLEND ARCs and CHAMFERs: it is solved with sharp
-corners.
+CALCULATED_RUNS.md, section 5, says which they are.
 """
 
 from __future__ import annotations

@@ -1,7 +1,6 @@
 """This module checks an answer: it walks the chain from its start and compares every typed number with the actual one.
 
-A branch that disagrees is dropped, so that surplus data choose among branches.  Lengths agree within 0.00254 mm
-(0.0001 in); angles agree within 0.001 degree, or if they displace the piece by no more than 0.00254 mm.
+A branch that disagrees is dropped, so that surplus data choose among branches (CALCULATED_RUNS.md, section 4).
 """
 
 from __future__ import annotations

@@ -1,13 +1,8 @@
 """A run is what is typed of its elements; a branch of its solution holds what is known of each element and joint.
 
-A branch derives what needs no choice.  Joint k lies before element k; joint 0 is the run's start.  Each value is None
-until known, and never changes later.  If a value can be derived in two ways, `answer_check` finds at the end, by
-walking the chain, whether they agree.
-
-An anchor is a known point A to which a joint P is tied rigidly: P = A + u t + v n, where t and n are the direction and
-left normal of the contour as it arrives at P (or departs from it).  A known joint is an anchor with u = v = 0; the
-center of a known circle is an anchor with v = -rho.  A LINE of known length and an ARC of known radius and sweep carry
-anchors to their other end.  Conclusions from anchors hold for chains of any shape.
+A branch derives what needs no choice (CALCULATED_RUNS.md, section 2, with anchors).  Joint k lies before element k;
+joint 0 is the run's start.  Each value is None until known, and never changes later.  If a value can be derived in two
+ways, `answer_check` finds at the end, by walking the chain, whether they agree.
 """
 
 from __future__ import annotations

@@ -1,10 +1,7 @@
 """This module finds the answers near the operator's pick, for a run that `steps` do not solve, by Newton's method.
 
-The pick is a point near the first unknown joint of the run (nearly always the end of its first segment).  A few dozen
-starting values are generated about it, and damped Newton steps on the unknown numbers of the chain (`newton`) lead from
-each to an answer.  Every answer is checked by walking its chain; the one whose joint is nearest to the pick is taken.
-None is taken if another pick nearby would lead to a different answer, if the answer is far from the pick, or if the
-data leave the answer free to move.
+The pick is a point near the first unknown joint of the run, nearly always the end of its first segment.  The answer
+nearest to it is taken, or none (CALCULATED_RUNS.md, section 7).
 """
 
 from __future__ import annotations
@@ -18,7 +15,7 @@ from typing import Final
 from core.geometry.piece import Arc, Point
 from core.program.solve.run.answer_check import objections
 from core.program.solve.run.branch import Run
-from core.program.solve.run.newton import HEADING, SIZE, SWEEP, ChainProblem, Numbers, newton_root, norm, slopes
+from core.program.solve.run.newton import HEADING, SIZE, SWEEP, ChainProblem, Numbers, newton_root, slopes
 from core.program.solve.run.search import MAX_SAME_DISTANCE, Answer, same_pieces, search
 
 STARTS_PER_PICK: Final = 48
@@ -131,11 +128,11 @@ def _free(problem: ChainProblem, root: Numbers) -> bool:
     columns = slopes(problem, root, problem.residuals(root))
     sizes = [problem.scale if angular else 1.0 for angular in problem.angular]
     vectors = [[value / size for value in column] for column, size in zip(columns, sizes, strict=True)]
-    largest = max((norm(vector) for vector in vectors), default=0.0)
+    largest = max((hypot(*vector) for vector in vectors), default=0.0)
     while vectors:
-        vectors.sort(key=norm)
+        vectors.sort(key=lambda vector: hypot(*vector))
         head = vectors.pop()
-        length = norm(head)
+        length = hypot(*head)
         if length <= SINGULAR_PIVOT * largest:
             return True
         unit = [value / length for value in head]

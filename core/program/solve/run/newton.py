@@ -7,7 +7,7 @@ the element before, are not unknowns.
 from __future__ import annotations
 
 from collections.abc import Iterator
-from math import cos, dist, inf, sin, sqrt, tau
+from math import cos, dist, hypot, inf, sin, tau
 from typing import Final, NamedTuple
 
 from core.geometry import construct
@@ -182,7 +182,7 @@ def _measured(placed: _Placed) -> Iterator[tuple[str, float]]:
 def newton_root(problem: ChainProblem, numbers: Numbers) -> Numbers | None:
     """Return the root that damped Newton steps (Levenberg-Marquardt) reach from a start, None if they reach none."""
     residuals = problem.residuals(numbers)
-    size, damping = norm(residuals), 1e-3
+    size, damping = hypot(*residuals), 1e-3
     for count in range(MAX_STEPS):
         if size <= CONVERGED_RESIDUAL * problem.scale:
             return numbers
@@ -193,19 +193,14 @@ def newton_root(problem: ChainProblem, numbers: Numbers) -> Numbers | None:
             step = _step(columns, residuals, damping)
             trial = [value + change for value, change in zip(numbers, step, strict=True)]
             trial_residuals = problem.residuals(trial)
-            if norm(trial_residuals) < size:
+            if hypot(*trial_residuals) < size:
                 break
             damping *= 10.0
         else:
             break
-        numbers, residuals, size, damping = trial, trial_residuals, norm(trial_residuals), damping * 0.1
+        numbers, residuals, size, damping = trial, trial_residuals, hypot(*trial_residuals), damping * 0.1
     close = ARC_RADII if problem.surplus else MAX_ROOT_RESIDUAL * problem.scale
     return numbers if max(map(abs, residuals), default=inf) <= close else None
-
-
-def norm(values: Numbers) -> float:
-    """Return the length of a vector."""
-    return sqrt(sum(value * value for value in values))
 
 
 def slopes(problem: ChainProblem, numbers: Numbers, residuals: Numbers) -> list[Numbers]:

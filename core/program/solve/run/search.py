@@ -26,11 +26,7 @@ GRAZE_SHIFT: Final = 12
 
 @dataclass(frozen=True, slots=True)
 class Answer:
-    """One solution of a run: its pieces, and the number by which a program file picks it.
-
-    Bit i of `choice` is the root taken at the i-th choosing step, so that it does not change when another answer
-    appears or vanishes; a root that has become double sets a second bit.
-    """
+    """One solution of a run: its pieces, and the number by which a file picks it (CALCULATED_RUNS.md, section 6)."""
 
     choice: int
     pieces: Pieces

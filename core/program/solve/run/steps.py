@@ -1,13 +1,8 @@
 """Each step of this module chooses: it returns the one or two branches that continue a branch, in a fixed order.
 
-The first step that applies is taken, in this order: PARALLEL, a circle without a choice, a LINE's heading, a joint, a
-circle, the side of a POINT at DISTANCE, the side of an OFFSET, a LINE along an axis.
-
-The circle of an ARC follows from three conditions on its center (x, y) and its signed radius rho.  A typed center or
-radius, a known joint with a known heading, a line that the circle touches, and a line on which it ends at a known
-heading give conditions linear in (x, y, rho).  A known point, a circle that it touches, and a point to which it is tied
-give |c - A|^2 = (rho + v)^2 + u^2; two of these differ by a linear condition.  Two linear conditions and one other
-therefore leave one quadratic equation: at most two circles.
+The first of `STEPS` that applies is taken (CALCULATED_RUNS.md, section 3).  The circle of an ARC follows from three
+conditions on its center (x, y) and its signed radius rho.  Each is linear, or a quadric |c - A|^2 = (rho + v)^2 + u^2,
+two of which differ by a linear one: two linear conditions and one other leave one quadratic equation.
 """
 
 from __future__ import annotations
