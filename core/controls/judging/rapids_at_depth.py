@@ -133,15 +133,12 @@ def moves_through(
         at_depth(int(rows[0]) / len(run.moves))
         moves = run.moves.part(int(rows[0]) - 1, int(rows[-1]) + 1)
         setup = run.setup_at(int(rows[0]))
-        cuts += _cuts(moves, tools.radius(int(rows[0]))[0], all_contours, setup, rapid=True)
+        cuts += _cuts(moves, tools.cutting_radius(int(rows[0])), all_contours, setup, rapid=True)
     for row in np.flatnonzero(_low_rapids(run, inf)).tolist():
         over_walls(row / len(run.moves))
         below_zero = _below_zero(run.moves.part(row - 1, row + 1))
         if below_zero is not None:
-            radius, known = tools.radius(row)
-            # a drill compensates nowhere: only what is near its axis is known to be cut
-            radius = radius if known else min(radius, LEAST_RADIUS)
-            cuts += _cuts_above(tools, row, below_zero, radius, all_contours)
+            cuts += _cuts_above(tools, row, below_zero, tools.cutting_radius(row), all_contours)
     for stretch, first, last in _adjoining_feeds(run):
         beside(first / len(run.moves))
         own_contours = [contour for contour in contours if stretch.has_part(contour.stretch)]
@@ -175,6 +172,11 @@ class _Tools:
         nearest_first = (*range(index - 1, -1, -1), *range(index, len(self.ends)))
         found = next((each for each in nearest_first if tool in (None, self.numbers[each])), None)
         return self.run.stretches[nearest_first[0] if found is None else found].radius, found is not None
+
+    def cutting_radius(self, row: int) -> float:
+        """Return the radius within which a row's tool is known to cut: of a drill, no size is known."""
+        radius, known = self.radius(row)
+        return radius if known else min(radius, LEAST_RADIUS)
 
 
 def _adjoining_feeds(run: ControlRun) -> Iterator[tuple[Stretch, int, int]]:

@@ -272,6 +272,9 @@ def test_a_rapid_below_zero_has_the_tool_in_the_spindle(control: str) -> None:
     drill = f"{BORE}{change}X27.\nX13.\nG1 Z-6.\nG0 Z50.\nM30\n"
     assert not rapids(drill, control, "LOW-RAPID")
     assert [finding.line for finding in rapids(drill.replace("X27.", "X47."), control, "LOW-RAPID")] == [15]
+    deep = drill.replace("Z-4.", "Z-5.")
+    assert not rapids(deep, control)
+    assert [finding.line for finding in rapids(deep.replace("X27.", "X47."), control)] == [15, 16]
     smaller = f"{BORE}{change}X26.\nX20.\nG1 Z-5.\nG41 D2 X30.\nG3 I-10.\nG40 G1 X20.\nG0 Z50.\nM30\n"
     assert not rapids(smaller, control, "LOW-RAPID")
     assert [finding.line for finding in rapids(smaller.replace("X26.", "X27.5"), control, "LOW-RAPID")] == [15]
