@@ -22,7 +22,7 @@ from textual.app import ComposeResult
 from textual.binding import Binding, BindingType
 from textual.containers import Horizontal, Vertical
 from textual.events import DescendantFocus, Resize, ScreenResume
-from textual.reactive import Reactive, var
+from textual.reactive import Reactive
 from textual.screen import ModalScreen, Screen
 from textual.widget import Widget
 from textual.widgets import Input, OptionList
@@ -57,7 +57,7 @@ NO_LIST_KEYS: Final = (("^K", "ALL ACTIONS"), ("?", "KEYS, HELP"))
 
 
 class BaseScreen(Screen[None]):
-    """A screen in the common frame; `session` follows the App's while the screen is in view."""
+    """A screen in the common frame; it follows the App's session while it is in view."""
 
     focused: Reactive[Widget | None] = Reactive(None, repaint=False)
     """Not repainting: moving the cursor repaints two fields, not the whole screen."""
@@ -87,12 +87,12 @@ class BaseScreen(Screen[None]):
     SHOWS_NC_TEXT: ClassVar[bool] = False
     """Whether this is the screen NC PROOF."""
 
-    session: var[Session | None] = var(None, init=False)
-    notice: var[Sentence | None] = var(None, init=False)
-    """A sentence shown in place of the prompt until the next accepted key."""
-
     def __init__(self) -> None:
         super().__init__()
+        self.session: Session | None = None
+        """The session that is shown."""
+        self.notice: Sentence | None = None
+        """A sentence shown in place of the prompt until the next accepted key."""
         self._marked: dict[str, Widget | None] = {}
         self._composed = False
 

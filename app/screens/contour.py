@@ -170,7 +170,7 @@ class ContourScreen(BlockActions, FormScreen):
                     yield PlainLabel(id="block-number", classes="head-value")
                     yield PlainLabel("MILL CONTOUR", classes="head-kind")
                     yield PlainLabel(id="file", classes="head-note")
-                with Horizontal(id="segment-line", classes="head"):
+                with Horizontal(classes="head"):
                     yield PlainLabel("SEGMENT", id="segment-label", classes="head-label")
                     yield SegmentField(SEGMENT_FIELD, str(session.place.segment), id=SEGMENT_FIELD)
                     yield PlainLabel(id="segment-kind", classes="head-kind")
@@ -184,7 +184,7 @@ class ContourScreen(BlockActions, FormScreen):
 
     def _made_form(self, session: Session) -> Form:
         self._form = form_at(session)
-        return self._forms.setdefault(self._form, Form(cells_at(session), classes="fields"))
+        return self._forms.setdefault(self._form, Form(cells_at(session)))
 
     def form(self) -> Form:
         """Return the form of the segment with the cursor."""

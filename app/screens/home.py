@@ -81,7 +81,7 @@ class HomeScreen(BaseScreen):
             files.border_title = "PROGRAMS"
             yield PlainText(id="folder", classes="head")
             yield RowTable(COLUMNS, id="programs")
-            yield BlockSummary(id="file-about", classes="block-summary")
+            yield BlockSummary()
         yield Drawing(id="preview")
 
     def on_mount(self) -> None:

@@ -58,7 +58,7 @@ class SettingsForm(FormScreen):
         with Vertical(id="settings", classes="panel -bare"):
             with Horizontal(classes="head"):
                 yield PlainLabel(self.NAME, classes="head-title")
-            yield Form(self._cells(self.current_session.program.unit), id="settings-form", classes="fields")
+            yield Form(self._cells(self.current_session.program.unit))
 
     def on_mount(self) -> None:
         """Put the cursor on the field that the screen was opened for, else on the first one."""

@@ -70,7 +70,7 @@ class ProgramScreen(BlockActions):
                 yield PlainLabel(id="block-count", classes="head-kind")
                 yield PlainLabel(id="program-file", classes="head-note")
             yield RowTable(COLUMNS, id="blocks")
-            yield BlockSummary(id="program-about", classes="block-summary")
+            yield BlockSummary()
             yield FindingsList(id="program-findings")
         yield Drawing(id="block-drawing")
 

@@ -347,8 +347,8 @@ class FieldRow(Horizontal):
 class Form(Horizontal):
     """Fields in two columns, in the order of their cells; the set of names never changes."""
 
-    def __init__(self, cells: Sequence[Cell], *, id: str | None = None, classes: str | None = None) -> None:
-        super().__init__(id=id, classes=classes)
+    def __init__(self, cells: Sequence[Cell]) -> None:
+        super().__init__(classes="fields")
         self.rows = {cell.name: FieldRow(cell) for cell in cells}
 
     def compose(self) -> ComposeResult:

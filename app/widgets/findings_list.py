@@ -62,7 +62,7 @@ class FindingsList(OptionRows):
     def __init__(self, *, id: str | None = None, classes: str | None = None) -> None:
         super().__init__(id=id, classes=classes)
         self._room, self._width = Size(), 0
-        self.border_title, self.border_subtitle = "FINDINGS", "n next  p before"
+        self.border_subtitle = "n next  p before"
 
     def on_resize(self) -> None:
         """Wrap the sentences again at a new size."""
