@@ -61,7 +61,7 @@ class FindingsList(OptionRows):
 
     def __init__(self, *, id: str | None = None, classes: str | None = None) -> None:
         super().__init__(id=id, classes=classes)
-        self._room, self._width = Size(), 0
+        self._room = Size()
         self.border_subtitle = "n next  p before"
 
     def on_resize(self) -> None:
@@ -73,35 +73,31 @@ class FindingsList(OptionRows):
         """Show the findings; the highlight keeps its index, or goes to the last one if there are fewer."""
         entries, at, self._room = self.entries, self.highlighted, self.content_region.size
         self.border_title = f"FINDINGS  {len(entries)}" if entries else "FINDINGS  none"
-        self._width = self._room.width
-        lines = self._wrapped_entries()
+        lines = self._wrapped_entries(self._room.width)
         if sum(line.plain.count("\n") + 1 for line in lines) > self._room.height:
             # the scroll bar takes a column
-            self._width = max(0, self._width - self.styles.scrollbar_size_vertical)
-            lines = self._wrapped_entries()
+            lines = self._wrapped_entries(self._room.width - self.styles.scrollbar_size_vertical)
         self.clear_options()
         self.add_options([Option(line, id=str(number)) for number, line in enumerate(lines)])
         self.highlighted = None if not entries else min(at or 0, len(entries) - 1)
 
     watch_entries = watch_characters = _show
 
-    def _wrapped_entries(self) -> list[Content]:
-        return [self._line(number, entry) for number, entry in enumerate(self.entries)]
+    def _wrapped_entries(self, width: int) -> list[Content]:
+        return [self._line(number, entry, width) for number, entry in enumerate(self.entries)]
 
-    def _line(self, number: int, entry: Entry) -> Content:
+    def _line(self, number: int, entry: Entry, width: int) -> Content:
         """Return the title and the segment, then what the sentence says besides its title."""
         sign = mark(entry.kind, MARKS_OF_CHARACTERS[self.characters])
         where = "" if entry.where in entry.title else f"  {entry.where}"
-        head = self._wrapped(f"{sign} {number + 1} {entry.title}{where}")
+        head = _wrapped(f"{sign} {number + 1} {entry.title}{where}", width)
         more = entry.text.removeprefix(entry.title).lstrip(".,; ")
         title = Content.styled(head, f"bold {ROLES[entry.kind]}")
         if not more:
             return title
-        return Content.assemble(title, "\n", Content.styled(self._wrapped(f"    {more}"), "$c-label"))
+        return Content.assemble(title, "\n", Content.styled(_wrapped(f"    {more}", width), "$c-label"))
 
-    def _wrapped(self, text: str) -> str:
-        """Return a text wrapped to the list's width, with all lines but the first indented; as it is while hidden."""
-        if not self._width:
-            return text
-        indent = " " * 4
-        return fill(text, max(self._width, MIN_WIDTH), subsequent_indent=indent, drop_whitespace=True)
+
+def _wrapped(text: str, width: int) -> str:
+    """Return a text wrapped to the list's width, with all lines but the first indented; as it is while hidden."""
+    return fill(text, max(width, MIN_WIDTH), subsequent_indent=" " * 4) if width > 0 else text

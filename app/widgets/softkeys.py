@@ -48,16 +48,16 @@ class Softkey:
 class SoftkeyLabel(PlainText):
     """The label of one softkey; a click presses the key."""
 
-    def __init__(self, number: int, key: Softkey | None) -> None:
+    def __init__(self, number: int) -> None:
         super().__init__(id=f"f{number}")
-        self.number, self.key = number, key
+        self.number = number
         self._state: tuple[Softkey | None, bool, bool] | None = None
 
     def show(self, key: Softkey | None, *, acts: bool, short: bool) -> None:
         """Show the key bright or dim, with its short name if `short`; do nothing if it is shown so already."""
         if self._state == (key, acts, short):
             return
-        self.key, self._state = key, (key, acts, short)
+        self._state = key, acts, short
         cap, label, look = f" F{self.number} ", "" if key is None else key.label, "" if acts else "dim"
         if short:
             cap, label = cap.strip(), "" if key is None else key.short
@@ -83,7 +83,7 @@ class Softkeys(Vertical):
     ) -> None:
         super().__init__(id="softkeys")
         self.keys, self.more, self.acts = tuple(keys), tuple(more), acts
-        self._labels = [SoftkeyLabel(number, key) for number, key in enumerate(self.keys, 1)]
+        self._labels = [SoftkeyLabel(number) for number in range(1, len(self.keys) + 1)]
 
     def compose(self) -> ComposeResult:
         """Yield the eight labels, the other keys and the legend."""
