@@ -134,7 +134,13 @@ class DerivationActions(App[int]):
             self._deriving = None
             if program is self.session.program:
                 self.session = self.displayed = self.session.with_derived(result)
-                self._mention_unit()
+                if (
+                    not self._unit_mentioned
+                    and isinstance(self.screen, ContourScreen)
+                    and (text := self._unit_question())
+                ):
+                    self._unit_mentioned = True
+                    self.say(f"{text} UNITS is in PROGRAM PARAMETERS.", Tone.WARNING)
                 self._make_table()
             else:
                 self.displayed = self.session.with_trial(result)
@@ -146,12 +152,6 @@ class DerivationActions(App[int]):
 
         question = unit_question(self.session.derived, drawn=self.part_is_drawn)
         return "" if question is None else sentence(question, self.session.program.unit)
-
-    def _mention_unit(self) -> None:
-        """Mention a doubtful unit on the form, once per program."""
-        if not self._unit_mentioned and isinstance(self.screen, ContourScreen) and (text := self._unit_question()):
-            self._unit_mentioned = True
-            self.say(f"{text} UNITS is in PROGRAM PARAMETERS.", Tone.WARNING)
 
     def _make_table(self) -> None:
         """Make the look-ahead table of the block with the cursor, if it is not known yet."""

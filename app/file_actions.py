@@ -225,8 +225,11 @@ class FileActions(DerivationActions):
             await self._open_drawing(result)
         elif isinstance(result, Path):
             self.show_folder(result)
+        elif isinstance(result.document, ContourDocument) and not await self._close_everything("OPEN?"):
+            # only one program can be open
+            self.disk.do(lambda: service.close(result.document))
         else:
-            await self._show_opened(result)
+            self.show_opened(result)
 
     async def _open_drawing(self, path: Path) -> None:
         """Open IMPORT on a drawing; unless the open program is new, ask whether to import into it or a new one."""
@@ -243,14 +246,6 @@ class FileActions(DerivationActions):
                     return
                 fresh = True
         self.show_drawing(path, fresh=fresh)
-
-    async def _show_opened(self, opened: Opened[Any]) -> None:
-        """Show an opened document; a program first closes everything else, as only one can be open."""
-        document = opened.document
-        if isinstance(document, ContourDocument) and not await self._close_everything("OPEN?"):
-            self.disk.do(lambda: self.service.close(document))
-        else:
-            self.show_opened(opened)
 
     async def _open_already(
         self, trouble: Trouble, opened: Callable[[], Opened[Any] | Trouble | Path], *, again: bool

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from asyncio import to_thread
-from contextlib import suppress
 from typing import TYPE_CHECKING, ClassVar, Final
 
 from textual import on, work
@@ -62,11 +61,10 @@ class CompareControls(Dialog["tuple[str, bool] | None"]):
 
     @work(exclusive=True, group="compare")
     async def _compare(self) -> None:
-        with suppress(Stopped):
+        try:
             self.answers = await to_thread(compare, self.request, self._work)
-            self._show_answers()
-
-    def _show_answers(self) -> None:
+        except Stopped:
+            return
         self.query_one("#compare-wait").display = False
         rows = self.query_one("#compared", OptionList)
         for answer in self.answers:
