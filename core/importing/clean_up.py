@@ -61,17 +61,13 @@ _Continuations = tuple[tuple[int, ...], tuple[int, ...]]
 
 def clean_up(pieces: Iterable[LayeredPiece], tolerance: float) -> Cleaned:
     """Return the pieces without those that chaining cannot use."""
-    kept = sorted((_oriented(item) for item in pieces), key=_key)
-    count = len(kept)
-    kept = _without_tiny(kept, tolerance)
-    cleaned = Cleaned(tiny=count - len(kept))
-    count = len(kept)
-    kept = _without_duplicates(kept, tolerance, cleaned)
-    cleaned.duplicates = count - len(kept)
-    count = len(kept)
-    kept = _without_overlaps(kept, tolerance, min(tolerance, MAX_OVERLAP_DISTANCE))
-    cleaned.overlaps = count - len(kept)
-    cleaned.pieces, cleaned.closed = _closed_entities(sorted(kept, key=_key), tolerance)
+    oriented = sorted((_oriented(item) for item in pieces), key=_key)
+    long = _without_tiny(oriented, tolerance)
+    cleaned = Cleaned(tiny=len(oriented) - len(long))
+    single = _without_duplicates(long, tolerance, cleaned)
+    joined = _without_overlaps(single, tolerance, min(tolerance, MAX_OVERLAP_DISTANCE))
+    cleaned.duplicates, cleaned.overlaps = len(long) - len(single), len(single) - len(joined)
+    cleaned.pieces, cleaned.closed = _closed_entities(sorted(joined, key=_key), tolerance)
     return cleaned
 
 

@@ -65,23 +65,6 @@ SAMPLES_PER_SPAN: Final = 32
 
 
 @dataclass(frozen=True, eq=False, slots=True)
-class _EllipseCurve:
-    """A smooth curve over a parameter."""
-
-    shape: EllipseArc
-
-    def at(self, parameters: Floats) -> tuple[Points, Points]:
-        """Return (n,) points at these parameters and (n,) derivatives there, which are not unit vectors."""
-        ahead, across = np.cos(parameters), np.sin(parameters)
-        first, second = self.shape.first, self.shape.second
-        return self.shape.center + ahead * first + across * second, ahead * second - across * first
-
-    def samples(self, first: float, last: float) -> Floats:
-        """Return parameters, evenly spaced, at which a biarc's distance from the curve is measured."""
-        return first + (last - first) * SAMPLE_FRACTIONS
-
-
-@dataclass(frozen=True, eq=False, slots=True)
 class _SplineCurve:
     """Bezier spans of one degree: (degree + 1, spans) control points x + iy, each times its weight, and the weights.
 
@@ -102,18 +85,13 @@ class _SplineCurve:
         # the derivative of a quotient
         return point / weight, (tangent * weight - point * change) / (weight * weight)
 
-    def samples(self, first: float, last: float) -> Floats:
-        """Return equally many parameters in each span, since a long span may be next to very short ones."""
-        stops = np.array([first, *range(floor(first) + 1, ceil(last)), last])
-        begins, sizes = stops[:-1, None], np.diff(stops)[:, None]
-        return np.append((begins + sizes * SAMPLE_FRACTIONS[:-1]).ravel(), last)
-
     def part(self, first: int, last: int) -> _SplineCurve:
         """Return spans first ... last - 1 as a curve; its end direction does not depend on the span after it."""
         return _SplineCurve(self.control[:, first:last], None if self.weights is None else self.weights[:, first:last])
 
 
-Curve = _EllipseCurve | _SplineCurve
+Curve = EllipseArc | _SplineCurve
+"""A smooth curve over a parameter."""
 
 Row = TypeVar("Row", Points, Floats)
 
@@ -143,17 +121,13 @@ def pieces_of_ellipse(shape: EllipseArc, fit: float) -> list[Piece]:
         shape = EllipseArc(shape.center, shape.first, -shape.second, -shape.end, -shape.begin)
     # cached about the origin: drawings often repeat an ellipse of one size
     x, y = shape.center.real, shape.center.imag
-    return [
-        moved_piece(piece, x, y)
-        for piece in _ellipse_about_origin(shape.first, shape.second, shape.begin, shape.end, fit)
-    ]
+    return [moved_piece(piece, x, y) for piece in _ellipse_about_origin(replace(shape, center=0j), fit)]
 
 
 @lru_cache(maxsize=256)
-def _ellipse_about_origin(first: complex, second: complex, begin: float, end: float, fit: float) -> tuple[Piece, ...]:
+def _ellipse_about_origin(curve: EllipseArc, fit: float) -> tuple[Piece, ...]:
     """Return the arcs of an ellipse about the origin; each quarter mirrors the one before it."""
-    shape = EllipseArc(0j, first, second, begin, end)
-    curve, stations = _EllipseCurve(shape), _ellipse_stations(shape)
+    stations = _ellipse_stations(curve)
     stops, quarter, row = stations[:1], list[float](), 0
     for number, (here, there) in enumerate(pairwise(stations)):
         if abs(there - here - pi / 2) > MAX_CIRCLE_DIFFERENCE:
@@ -164,7 +138,7 @@ def _ellipse_about_origin(first: complex, second: complex, begin: float, end: fl
         turned = quarter if (number - row) % 2 == 0 else [pi / 2 - stop for stop in reversed(quarter)]
         stops += [*(here + stop for stop in turned[1:-1]), there]
     pieces = _biarcs(curve, stops, fit)
-    if end - begin >= tau * (1.0 - MAX_CIRCLE_DIFFERENCE):
+    if curve.end - curve.begin >= tau * (1.0 - MAX_CIRCLE_DIFFERENCE):
         pieces = _merged([*pieces[:-1], replace(pieces[-1], end=pieces[0].start)])
     return tuple(pieces)
 
@@ -179,7 +153,7 @@ def moved_piece(piece: Piece, x: float, y: float) -> Piece:
 
 def _circle(shape: EllipseArc) -> Arc:
     turn = Turn.CCW if (shape.first.conjugate() * shape.second).imag > 0.0 else Turn.CW
-    start, end = _EllipseCurve(shape).at(np.array([shape.begin, shape.end]))[0].tolist()
+    start, end = shape.at(np.array([shape.begin, shape.end]))[0].tolist()
     center = (shape.center.real, shape.center.imag)
     first = (start.real, start.imag)
     full_turn = shape.end - shape.begin >= tau * (1.0 - MAX_CIRCLE_DIFFERENCE)
@@ -195,7 +169,7 @@ def _flattened(shape: EllipseArc) -> list[Piece]:
     turning = atan2((second * along.conjugate()).real, abs(first)) if first is shape.first else pi / 2
     steps = range(ceil((shape.begin - turning) / pi), int((shape.end - turning) // pi) + 1)
     stations = np.array([shape.begin, *(turning + step * pi for step in steps), shape.end])
-    points = _EllipseCurve(shape).at(stations)[0].tolist()
+    points = shape.at(stations)[0].tolist()
     return [Line((p.real, p.imag), (q.real, q.imag)) for p, q in pairwise(points) if p != q]
 
 
@@ -402,7 +376,7 @@ def _longest_step(curve: Curve, here: float, step: float, largest_step: float, f
 
 def _biarc_between(curve: Curve, first: float, last: float) -> tuple[list[Piece], float]:
     """Return the biarc between two parameters and its distance from the curve, infinite if it turns too much."""
-    points, tangents = curve.at(curve.samples(first, last))
+    points, tangents = curve.at(_samples(curve, first, last))
     start, end = complex(points[0]), complex(points[-1])
     turned = tangents[1:] * tangents[:-1].conj()
     if not turned.all():
@@ -414,6 +388,17 @@ def _biarc_between(curve: Curve, first: float, last: float) -> tuple[list[Piece]
     t1, t2 = complex(tangents[0]), complex(tangents[-1])
     pieces = biarc(start, end, t1 / abs(t1), t2 / abs(t2))
     return pieces, _deviation(points, pieces)
+
+
+def _samples(curve: Curve, first: float, last: float) -> Floats:
+    """Return parameters at which a biarc's distance from the curve is measured.
+
+    They are equally many in each span of a spline, since a long span may be next to very short ones.
+    """
+    joints = range(floor(first) + 1, ceil(last)) if isinstance(curve, _SplineCurve) else ()
+    stops = np.array([first, *joints, last])
+    begins, sizes = stops[:-1, None], np.diff(stops)[:, None]
+    return np.append((begins + sizes * SAMPLE_FRACTIONS[:-1]).ravel(), last)
 
 
 def _deviation_from_chord(points: Points) -> float:

@@ -79,7 +79,7 @@ OTHER_UNITS: Final = {
 """Names of the units that are not read, by $INSUNITS."""
 
 
-@dataclass(frozen=True, eq=False, slots=True)
+@dataclass(frozen=True, slots=True)
 class EllipseArc:
     """The points center + cos(t) first + sin(t) second, t from `begin` to `end` (radians, begin < end).
 
@@ -91,6 +91,11 @@ class EllipseArc:
     second: complex
     begin: float
     end: float
+
+    def at(self, parameters: NDArray[np.float64]) -> tuple[NDArray[np.complex128], NDArray[np.complex128]]:
+        """Return (n,) points at these parameters and (n,) derivatives there, which are not unit vectors."""
+        ahead, across = np.cos(parameters), np.sin(parameters)
+        return self.center + ahead * self.first + across * self.second, ahead * self.second - across * self.first
 
 
 @dataclass(frozen=True, eq=False, slots=True)

@@ -174,9 +174,8 @@ class _Reader:
         if code not in UNIT_CODES and code:
             other = f"{OTHER_UNITS.get(code, 'unknown')}, $INSUNITS {code}"
             notes.append(f"The drawing has a unit that is not read: {other}.")
-        unit = UNIT_CODES.get(code)
         return Drawing(
-            unit,
+            UNIT_CODES.get(code),
             tuple(self.shapes),
             dict(self.skipped),
             dict(self.hidden),

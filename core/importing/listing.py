@@ -8,7 +8,7 @@ from __future__ import annotations
 import itertools
 from collections.abc import Iterable, Iterator, Sequence
 from itertools import pairwise
-from math import cos, isfinite, sin
+from math import isfinite
 from typing import Final
 
 import numpy as np
@@ -171,9 +171,8 @@ def _box(shape: Shape) -> tuple[float, float, float, float]:
     match shape:
         case Line(start, end):
             points = [complex(*start), complex(*end)]
-        case EllipseArc(center, first, second, begin, end):
-            steps = [begin + (end - begin) * step / (ELLIPSE_SAMPLES - 1) for step in range(ELLIPSE_SAMPLES)]
-            points = [center + cos(at) * first + sin(at) * second for at in steps]
+        case EllipseArc():
+            points = shape.at(np.linspace(shape.begin, shape.end, ELLIPSE_SAMPLES))[0].tolist()
         case BSpline(points=rows):
             points = rows.tolist()
     finite = [point for point in points if isfinite(point.real) and isfinite(point.imag)]
