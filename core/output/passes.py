@@ -215,20 +215,18 @@ def peck_levels(z_start: float, bottom: float, peck: float) -> tuple[float, ...]
     return (*(z_start - number * peck for number in range(1, count)), bottom)
 
 
-@dataclass(frozen=True, eq=False, slots=True)
-class _Stage:
-    """The work of one tool: `runs` at each depth of `levels`, leaving `floor_stock` on the floor."""
-
-    cutter: Cutter
-    runs: tuple[CenterPath, ...]
-    levels: tuple[float, ...]
-    floor_stock: float
-    finishing: bool
-
-
 def passes(job: Job) -> tuple[Pass, ...]:
     """Return all passes of a block, in order.  The job must have no posting errors."""
-    return tuple(a_pass for stage in _stages(job) for a_pass in _stage_passes(job, stage))
+    assert job.cutter is not None
+    stock = job.finish_z if job.finisher is not None else 0.0
+    levels = peck_levels(job.z_start, job.z_bottom + stock, job.peck_depth)
+    made = [*_passes_of_tool(job, job.cutter, rough_runs(job), levels, stock)]
+    if job.finisher is not None:
+        strip = job.cutter.diameter + (job.rough[0].offset if job.rough else 0.0)
+        roughed = job.cutter.diameter <= job.finisher.diameter <= strip and not meets_solid(job)
+        levels = peck_levels(job.z_start, job.z_bottom, 0.0 if roughed else job.peck_depth)
+        made += _passes_of_tool(job, job.finisher, job.finish, levels, 0.0, finishing=True)
+    return tuple(made)
 
 
 def rough_runs(job: Job) -> tuple[CenterPath, ...]:
@@ -252,18 +250,6 @@ def at_one_safe_z(jobs: Sequence[Job]) -> list[Job]:
     return [replace(job, safe_z=safe) for job in jobs]
 
 
-def _stages(job: Job) -> Iterator[_Stage]:
-    assert job.cutter is not None
-    stock = job.finish_z if job.finisher is not None else 0.0
-    rough_levels = peck_levels(job.z_start, job.z_bottom + stock, job.peck_depth)
-    yield _Stage(job.cutter, rough_runs(job), rough_levels, stock, finishing=False)
-    if job.finisher is not None:
-        strip = job.cutter.diameter + (job.rough[0].offset if job.rough else 0.0)
-        roughed = job.cutter.diameter <= job.finisher.diameter <= strip and not meets_solid(job)
-        finish_levels = peck_levels(job.z_start, job.z_bottom, 0.0 if roughed else job.peck_depth)
-        yield _Stage(job.finisher, job.finish, finish_levels, 0.0, finishing=True)
-
-
 def meets_solid(job: Job) -> frozenset[int]:
     """Return the segments that the finish tool cuts in solid material: no roughing run has cut them."""
     return frozenset() if job.finisher is None else _segments(job.finish) - _segments(job.rough[-1:])
@@ -273,16 +259,25 @@ def _segments(runs: Sequence[CenterPath]) -> frozenset[int]:
     return frozenset(int(number) for run in runs for number in run.path.numbers.tolist() if number == int(number))
 
 
-def _stage_passes(job: Job, stage: _Stage) -> Iterator[Pass]:
-    runs = tuple(run for run in stage.runs if len(run.with_leads))
-    floors = [heights(job, run) + stage.floor_stock for run in runs]
+def _passes_of_tool(
+    job: Job,
+    cutter: Cutter,
+    its_runs: Sequence[CenterPath],
+    levels: Sequence[float],
+    floor_stock: float,
+    *,
+    finishing: bool = False,
+) -> Iterator[Pass]:
+    """Yield a tool's passes: its runs at each depth of `levels`; they leave `floor_stock` (mm) on the floor."""
+    runs = tuple(run for run in its_runs if len(run.with_leads))
+    floors = [heights(job, run) + floor_stock for run in runs]
     widths = list(dict.fromkeys(run.offset for run in runs))
-    last = len(stage.levels) * len(runs) - 1
+    last = len(levels) * len(runs) - 1
     safe = max(job.safe_z, clear_height(job))
-    for number, level in enumerate(stage.levels):
+    for number, level in enumerate(levels):
         for index, (run, floor) in enumerate(zip(runs, floors, strict=True)):
             done = number * len(runs) + index
-            before = max(stage.levels[number - 1], float(floor[0, 0])) if number else None
+            before = max(levels[number - 1], float(floor[0, 0])) if number else None
             motions = (
                 *_plunge_moves(
                     job, run, max(level, float(floor[0, 0])), before, safe if done == 0 else clear_height(job)
@@ -292,15 +287,15 @@ def _stage_passes(job: Job, stage: _Stage) -> Iterator[Pass]:
             up = CenterMove(motions[-1].x, motions[-1].y, safe if done == last else clear_height(job))
             yield Pass(
                 block=job.block,
-                cutter=stage.cutter,
+                cutter=cutter,
                 speed=job.speed,
                 level=level,
                 side=widths.index(run.offset) + 1,
                 sides=len(widths),
                 number=number + 1,
-                count=len(stage.levels),
+                count=len(levels),
                 stock=run.offset,
-                finishing=stage.finishing,
+                finishing=finishing,
                 motions=(*motions, up),
             )
 

@@ -6,7 +6,6 @@ backwards, is a mistake worth seeing.
 
 from __future__ import annotations
 
-from dataclasses import dataclass
 from math import isinf
 from typing import Final
 
@@ -14,11 +13,11 @@ import numpy as np
 
 from core.geometry.distance import foot
 from core.geometry.path import Flags, Path, Rows
-from core.geometry.piece import Point, point_of
 from core.geometry.piece_arrays import at, batches_by_kind, direction, piece_arrays
 from core.tolerance import ON_PATH, STOCK
 from core.verify.pairs import Pairs, measurable, near_ends_and_middle, pairs_of, piece_within, rounding_of
-from core.verify.uncut import MAX_POINT_LENGTH, gaps_of
+from core.verify.uncut import MAX_POINT_LENGTH, gaps_of, stretches
+from core.verify.verdict import Uncut
 
 MAX_PARALLEL_SINE: Final = 1e-6
 """Sine of the largest angle at which a move and the wall it touches count as parallel."""
@@ -27,20 +26,8 @@ MAX_DIRECTIONLESS_LENGTH: Final = 1e-5
 """Millimeters up to which a piece has no direction: rounding leaves it where two walls nearly run on tangent."""
 
 
-@dataclass(frozen=True, slots=True)
-class AirCut:
-    """A stretch of the path farther from the surface than the radius: numbers and points of its ends, its length.
-
-    `beyond` is its largest distance less the radius, reached at `farthest`.
-    """
-
-    first_number: float
-    last_number: float
-    start: Point
-    end: Point
-    length: float
-    beyond: float
-    farthest: Point
+AirCut = Uncut
+"""A stretch of the path farther from the surface than the radius; `thickness` is its largest distance less that."""
 
 
 def may_cut_air(pairs: Pairs, radius: float) -> tuple[int, ...]:
@@ -69,15 +56,7 @@ def _air_cuts(pairs: Pairs, radius: float, center: Path) -> tuple[AirCut, ...]:
     fully_reached = np.zeros(len(pairs.pieces), np.bool_)
     fully_reached[pairs.i[piece_within(pairs, radius + pairs.tolerance)]] = True
     gaps = gaps_of(pairs, fully_reached, radius)
-    beyond, numbers = gaps.distance - radius, center.numbers[pairs.pieces.rows[gaps.pieces]]
-    columns = (*numbers, *gaps.ends, gaps.intervals.last - gaps.intervals.first, beyond, gaps.farthest)
-    return tuple(
-        AirCut(first, last, point_of(start), point_of(end), length, excess, point_of(farthest))
-        for first, last, start, end, length, excess, farthest in zip(
-            *(column.tolist() for column in columns), strict=True
-        )
-        if excess > STOCK
-    )
+    return tuple(cut for cut in stretches(gaps, center.numbers[pairs.pieces.rows], radius) if cut.thickness > STOCK)
 
 
 def backwards(pairs: Pairs, radius: float) -> tuple[int, ...]:

@@ -125,15 +125,10 @@ def _better(
     order = np.lexsort((s, -np.round(distances / ON_PATH), owner))
     first = order[changes(owner[order])]
     first = first[distances[first] > best.distance[owner[first]]]
-    owners = owner[first]
-    place, point, largest, nearest_piece = best.place.copy(), best.point.copy(), best.distance.copy(), best.near.copy()
-    place[owners], point[owners], largest[owners], nearest_piece[owners] = (
-        s[first],
-        points[first],
-        distances[first],
-        near[first],
-    )
-    return Farthest(place, point, largest, nearest_piece)
+    columns = [column.copy() for column in best]
+    for column, new in zip(columns, (s, points, distances, near), strict=True):
+        column[owner[first]] = new[first]
+    return Farthest._make(columns)
 
 
 def _bounds(pairs: Pairs, spans: _Spans) -> tuple[Floats, Floats]:

@@ -76,9 +76,9 @@ def _air_cut(stretch: AirCut) -> Finding:
         Severity.INFO,
         "{value} of path cuts air: {0} off the part at X {x} Y {y}.",
         segment=stretch.first_number,
-        at=stretch.farthest,
+        at=stretch.thickest,
         value=stretch.length,
-        lengths=(stretch.beyond,),
+        lengths=(stretch.thickness,),
     )
 
 

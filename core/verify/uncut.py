@@ -23,9 +23,6 @@ MAX_POINT_LENGTH: Final = 1e-6
 ON_EDGE: Final = 1e-7
 """Millimeters: the end of a gap that is no farther from the cutter's edge counts as on it."""
 
-GAPS_AT_A_TIME: Final = 1_000
-"""Gaps whose ends are examined together, which bounds the memory in use."""
-
 
 @dataclass(frozen=True, eq=False, slots=True)
 class Gaps:
@@ -67,30 +64,32 @@ def uncut(
     gaps = gaps_of(pairs, covered, radius)
     if not len(gaps.intervals):
         return ()
-    numbers, intervals = surface.numbers[walls.rows], gaps.intervals
-    length, thick = intervals.last - intervals.first, gaps.distance - radius
+    intervals, corner = gaps.intervals, gaps.corner
     area = np.where(gaps.area * side.sign > 0.0, np.abs(gaps.area), nan)
-    at_start, at_end = intervals.first == 0.0, intervals.last == walls.stations[-1]
     area[~gaps.reached.all(axis=0)] = nan
+    parts = stretches(gaps, surface.numbers[walls.rows], radius, area)
+    if closed and intervals.first[0] == 0.0 and intervals.last[-1] == walls.stations[-1] and len(parts) > 1:
+        joint_area = float(gaps.area[0] + gaps.area[-1]) * side.sign if abs(corner[0] - corner[-1]) <= CLOSED else nan
+        parts = [*parts[1:-1], _over_start(parts[-1], parts[0], joint_area if joint_area > 0.0 else None)]
+    return tuple(stretch for stretch in parts if stretch.thickness > STOCK)
+
+
+def stretches(gaps: Gaps, numbers: Floats, radius: float, area: Floats | None = None) -> list[Uncut]:
+    """Return the first and the last gap, and those thicker than STOCK; `numbers` (n,) are those of the pieces.
+
+    A gap is as thick as its largest distance exceeds the radius; `area` (k,) is NaN where it is not defined.
+    """
+    length, thick = gaps.intervals.last - gaps.intervals.first, gaps.distance - radius
     wanted = thick > STOCK
-    wanted[[0, -1]] = True
-    columns = (*numbers[gaps.pieces], *gaps.ends, length, thick, gaps.farthest, area)
-    stretches = [
-        Uncut(
-            first, last, point_of(start), point_of(end), size, most, point_of(at), None if isnan(between) else between
-        )
-        for first, last, start, end, size, most, at, between in zip(
+    wanted[:1] = wanted[-1:] = True
+    areas = np.full(len(thick), nan) if area is None else area
+    columns = (*numbers[gaps.pieces], *gaps.ends, length, thick, gaps.farthest, areas)
+    return [
+        Uncut(first, last, point_of(start), point_of(end), size, most, point_of(at), None if isnan(over) else over)
+        for first, last, start, end, size, most, at, over in zip(
             *(column[wanted].tolist() for column in columns), strict=True
         )
     ]
-    if closed and at_start[0] and at_end[-1] and len(stretches) > 1:
-        same_corner = abs(gaps.corner[0] - gaps.corner[-1]) <= CLOSED
-        joint_area = float(gaps.area[0] + gaps.area[-1]) * side.sign if same_corner else nan
-        stretches = [
-            *stretches[1:-1],
-            _over_start(stretches[-1], stretches[0], joint_area if joint_area > 0.0 else None),
-        ]
-    return tuple(stretch for stretch in stretches if stretch.thickness > STOCK)
 
 
 def _over_start(before: Uncut, after: Uncut, area: float | None) -> Uncut:
@@ -232,14 +231,6 @@ def _overshoot(pairs: Pairs, pair: Rows, ends: Floats, inward: Floats, radius: f
 
 def _corners(pairs: Pairs, index: Rows, ends: Points, radius: float) -> tuple[Points, Flags]:
     """Return (k,) the places of the others from which both ends of each gap are reached, and (2, k) which ends are."""
-    corner, reached = np.full(len(index[0]), complex(nan, nan)), np.zeros(ends.shape, np.bool_)
-    for first in range(0, len(corner), GAPS_AT_A_TIME):
-        some = slice(first, first + GAPS_AT_A_TIME)
-        corner[some], reached[:, some] = _some_corners(pairs, index[:, some], ends[:, some], radius)
-    return corner, reached
-
-
-def _some_corners(pairs: Pairs, index: Rows, ends: Points, radius: float) -> tuple[Points, Flags]:
     near = [nearest(pairs, rows, points) for rows, points in zip(index, ends, strict=True)]
     reached = np.array([match.distance[match.first] <= radius + 4.0 * ON_PATH for match in near])
     corner = np.full(len(index[0]), complex(nan, nan))

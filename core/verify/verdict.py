@@ -50,7 +50,7 @@ class Approach:
 
 @dataclass(frozen=True, slots=True)
 class Uncut:
-    """A stretch of the surface that the cutter does not reach from any point of its path."""
+    """A stretch of the surface that the cutter does not reach from any point of its path, or the other way around."""
 
     first_number: float
     """The segment on which it begins, at `start`."""

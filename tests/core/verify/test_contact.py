@@ -32,16 +32,16 @@ def test_a_lead_cuts_air() -> None:
     assert away.start == (1, 3)
     assert away.end == pytest.approx((3, 1), abs=1e-3)
     assert away.length == pytest.approx(pi, abs=1e-3)
-    assert away.beyond == pytest.approx(2.0)
-    assert away.farthest == pytest.approx((1, 3))
+    assert away.thickness == pytest.approx(2.0)
+    assert away.thickest == pytest.approx((1, 3))
 
 
 def test_a_detour_over_several_moves_is_one_stretch() -> None:
     (away,) = air_cuts(WALL, 1.0, lines((0, 1), (4, 1), (5, 2), (6, 1), (10, 1)))
     assert away.length == pytest.approx(2 * sqrt(2), abs=1e-6)
     assert (away.first_number, away.last_number) == (2, 3)
-    assert away.farthest == pytest.approx((5, 2))
-    assert away.beyond == pytest.approx(1.0)
+    assert away.thickest == pytest.approx((5, 2))
+    assert away.thickness == pytest.approx(1.0)
 
 
 def test_moves_against_the_contour_are_listed() -> None:
