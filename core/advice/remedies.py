@@ -187,11 +187,9 @@ def longest_segments(contour: Path) -> list[int]:
 
 def restarted(contour: Path, row: int) -> Path:
     """Return a closed contour of n segments, started in the middle of segment `row` (from 0): n + 1 new segments."""
-    at = np.array([contour[row].point_at(0.5)])
-    points = np.concatenate((at, contour.points[row + 1 :], contour.points[1 : row + 1], at))
-    turns = np.concatenate((contour.turns[row:], contour.turns[: row + 1]))
-    centers = np.concatenate((contour.centers[row:], contour.centers[: row + 1]))
-    return Path.of(points, centers, turns)
+    pieces, middle = list(contour), contour[row].point_at(0.5)
+    first, last = replace(pieces[row], start=middle), replace(pieces[row], end=middle)
+    return Path.from_pieces([first, *pieces[row + 1 :], *pieces[:row], last])
 
 
 MAX_NAMED_PLACES: Final = 4

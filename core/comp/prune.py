@@ -75,14 +75,15 @@ def prune(chain: RawChain, joints: Crossings, others: Crossings, *, last_wins: b
     starts, remains = as_complex(chain.raw.points)[:-1].copy(), ~deleted
     starts[taken.b], remains[taken.b - 1] = taken.points, False
     starts[deleting.b] = deleting.points
-    path, bridges, kept = _pruned_path(chain, remains, starts, low, high)
-    return Pruned(path, chain.parts[kept] >= RawPart.BRIDGE, bridges, _deletions(chain, deleting, deleted))
+    path, kept = _pruned_path(chain, remains, starts, low, high)
+    bridged = chain.parts[kept] >= RawPart.BRIDGE
+    return Pruned(path, bridged, kept[bridged], _deletions(chain, deleting, deleted))
 
 
 def _pruned_path(
     chain: RawChain, remains: Flags, starts: Points, low: Sequence[float], high: Sequence[float]
-) -> tuple[Path, Rows, Rows]:
-    """Return the path of the pieces that remain, the rows of the bridges among them, and the rows of all of them.
+) -> tuple[Path, Rows]:
+    """Return the path of the pieces that remain, and their rows.
 
     Each remains from `low` to `high` millimeters along it, `high` infinite if its end is untrimmed, and starts at its
     point of `starts` (m,).  Pieces without length are left out: an arc trimmed to a point must not become a full
@@ -96,10 +97,9 @@ def _pruned_path(
         if min(high[piece], raw[piece].length) - low[piece] > JOINED:
             points[row + 1], has_length[row] = points[row], True
     rows, points = rows[has_length], points[np.append(has_length, True)]
-    bridges = rows[chain.parts[rows] >= RawPart.BRIDGE]
     if not len(rows):
-        return EMPTY, bridges, rows
-    return Path.of(coordinates(points), raw.centers[rows], raw.turns[rows], raw.numbers[rows]), bridges, rows
+        return EMPTY, rows
+    return Path.of(coordinates(points), raw.centers[rows], raw.turns[rows], raw.numbers[rows]), rows
 
 
 def _deletions(chain: RawChain, events: Crossings, is_deleted: Flags) -> Deletions:

@@ -21,7 +21,7 @@ from core.draw.areas import inside
 from core.draw.characters import CELLS_OF_MODE, Cells, CellSheet, Mode, write_marks_and_labels
 from core.draw.scene import DOTTED_STYLES, MAX_DRAWN_COORDINATE, Area, Layer, Scene, Style
 from core.draw.view import CELL_HEIGHT, View
-from core.geometry.path import Flags, Floats, Points, Rows, Turns, as_complex
+from core.geometry.path import EMPTY, Flags, Floats, Points, Rows, Turns, pieces_of
 
 MAX_CHORD_ERROR: Final = 0.1
 """Largest distance of a chord from its arc, in cell widths: less than half a dot of the finest mode."""
@@ -89,14 +89,11 @@ def chords(layers: Sequence[Layer], view: View, columns: int, rows: int) -> Chor
 
 def _pieces(layers: Sequence[Layer], view: View) -> _Pieces:
     """Return the pieces of all layers that are drawn at all."""
-    paths = [layer.path for layer in layers]
-
-    def together(name: str) -> Points:
-        return as_complex(np.concatenate([np.empty((0, 2)), *(getattr(path, name) for path in paths)]))
-
+    paths, middle = [layer.path for layer in layers], complex(*view.center)
     counts = [len(path) for path in paths]
-    starts, ends, centers = (together(name) - complex(*view.center) for name in ("starts", "ends", "centers"))
-    turns = np.concatenate([np.empty(0, np.int8), *(path.turns for path in paths)])
+    columns = zip(pieces_of(EMPTY), *map(pieces_of, paths), strict=True)
+    starts, ends, centers, turns = map(np.concatenate, columns)
+    starts, ends, centers = starts - middle, ends - middle, centers - middle
     sweeps = np.concatenate([np.empty(0), *(np.abs(path.sweeps) for path in paths)])
     along = np.concatenate([np.empty(0), *map(_traveled, layers)])
     chosen = (np.ones(len(layer.path), np.bool_) if layer.drawn is None else layer.drawn for layer in layers)

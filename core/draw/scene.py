@@ -17,7 +17,7 @@ from shapely.geometry.base import BaseGeometry
 
 from core.geometry.path import EMPTY, Floats, Path, point_of_row
 from core.geometry.path_parts import NO_PARTS, PathParts
-from core.geometry.piece import Line, Piece, Point
+from core.geometry.piece import Arc, Line, Piece, Point, Turn
 from core.tolerance import LARGEST_COORDINATE
 from core.units import Unit
 
@@ -159,9 +159,8 @@ class Scene:
 
 def _outline(circle: Circle) -> Layer:
     """Return the whole circle as a layer."""
-    (x, y), radius = circle.center, circle.radius
-    rim = np.array([[x + radius, y], [x + radius, y]], float)
-    return Layer(Path(rim, np.array([[x, y]], float), np.ones(1, np.int8), np.ones(1)), circle.style)
+    rim = (circle.center[0] + circle.radius, circle.center[1])
+    return Layer(Path.from_pieces([Arc(rim, rim, circle.center, Turn.CCW)]), circle.style)
 
 
 def _box_around(boxes: Sequence[Floats]) -> Box | None:

@@ -15,7 +15,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from core.geometry.construct import on_bisector
-from core.geometry.path import Flags, Floats, Path, Pieces, Points, Rows, Turns, as_complex, boxes, swept
+from core.geometry.path import EMPTY, Flags, Floats, Path, Pieces, Points, Rows, Turns, boxes, pieces_of, swept
 from core.geometry.piece import ANGLE_ROUNDING
 from core.tolerance import ON_PATH
 
@@ -88,8 +88,6 @@ class PieceArrays:
         return boxes(Pieces(self.start, self.end, self.center, self.turn.astype(np.int8)))
 
 
-_NO_POINTS: Final = np.zeros(0, np.complex128)
-_NO_TURNS: Final = np.zeros(0, np.float64)
 FormulaArgument = PieceArrays | Floats | Points
 Formula = Callable[..., NDArray[Any]]
 
@@ -99,12 +97,8 @@ def piece_arrays(*paths: Path) -> PieceArrays:
 
     Rows count all pieces of all paths.
     """
-    corners = [as_complex(path.points) for path in paths]
-    start = np.concatenate([_NO_POINTS, *(points[:-1] for points in corners)])
-    end = np.concatenate([_NO_POINTS, *(points[1:] for points in corners)])
-    center = np.concatenate([_NO_POINTS, *(as_complex(path.centers) for path in paths)])
-    turn = np.concatenate([_NO_TURNS, *(path.turns for path in paths)])
-    whole = _of_points(start, end, center, turn)
+    start, end, center, turn = map(np.concatenate, zip(pieces_of(EMPTY), *map(pieces_of, paths), strict=True))
+    whole = _of_points(start, end, center, turn.astype(np.float64))
     short = whole.length <= ON_PATH
     if not short.any():
         return whole

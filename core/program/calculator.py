@@ -75,6 +75,8 @@ def calculate(case: Case, typed: Mapping[str, str], unit: Unit) -> Answers | Ref
         if isinstance(value, Unreadable):
             return Refusal(f"{quantity.label}: {value.reason}", quantity.name)
         known[quantity.name] = _inside(value, quantity.kind, unit)
+    if not case.optional and min(known.get("radius", 1.0), known.get("radius2", 1.0)) <= 0.0:
+        return Refusal("RADIUS must be above 0.", "radius")
     answers = case.solve(known)
     return answers if isinstance(answers, Refusal) else tuple(_outside(case, answer, unit) for answer in answers)
 
@@ -182,8 +184,6 @@ def _arc_numbers(radius: float, sweep: float) -> Numbers:
 def _tangent(known: Numbers) -> Answers | Refusal:
     """Return the two tangents from a point to a circle: first the one with the circle on its left."""
     point, center, radius = _point(known, "x", "y"), _point(known, "x_center", "y_center"), known["radius"]
-    if radius <= 0.0:
-        return Refusal("RADIUS must be above 0.", "radius")
     answers = []
     for rho in (radius, -radius):
         headings, _ = headings_at_distances(point, 0.0, center, rho)
@@ -224,15 +224,11 @@ def _two_lines(known: Numbers) -> Answers | Refusal:
 
 
 def _line_and_circle(known: Numbers) -> Answers | Refusal:
-    if known["radius"] <= 0.0:
-        return Refusal("RADIUS must be above 0.", "radius")
     circle = Circle(_point(known, "x_center", "y_center"), known["radius"])
     return _meetings(line_through(_point(known, "x", "y"), known["angle"]), circle)
 
 
 def _two_circles(known: Numbers) -> Answers | Refusal:
-    if known["radius"] <= 0.0 or known["radius2"] <= 0.0:
-        return Refusal("RADIUS must be above 0.", "radius")
     first = Circle(_point(known, "x_center", "y_center"), known["radius"])
     return _meetings(first, Circle(_point(known, "x_center2", "y_center2"), known["radius2"]))
 

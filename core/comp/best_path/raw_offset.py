@@ -4,10 +4,9 @@ Words: the SIDE pieces are the offset segments and corner arcs on the cutter's s
 joined across its start.  The OUTLINE pieces are the rest of the outline of all points nearer than the radius: the
 other side, and the half circles about an open contour's two ends.  They only cut.
 
-`trimmed` cuts off the parts that are certainly inside a wall.  Two cheap cuts leave few pieces that cross.  At an
-inside corner of two lines both end where they meet, since past that point each is nearer to the other's segment than
-the radius.  And the parts from which the cutter would cover a vertex of the surface are dropped, for the vertices 1, 2,
-4, 8 ... segments ahead and back.
+`trimmed` cuts off what is certainly inside a wall, so that few pieces cross.  At an inside corner of two lines both end
+where they meet.  Parts from which the cutter would cover a vertex of the surface are dropped, for the vertices 1, 2, 4,
+8 ... segments ahead and back.
 """
 
 from __future__ import annotations
@@ -176,18 +175,14 @@ def _without_cusps(chain: RawChain, surface: Path, side: Side) -> RawChain:
 
 def _both_sides(first_side: RawChain, second_side: RawChain, shift: int) -> RawChain:
     """Join two chains with a bridge between them; the second one's half steps begin at `shift`."""
-    path = Path.of(
-        np.concatenate((first_side.raw.points, second_side.raw.points)),
-        np.concatenate((first_side.raw.centers, first_side.raw.points[-1:], second_side.raw.centers)),
-        np.concatenate((first_side.raw.turns, np.zeros(1, np.int8), second_side.raw.turns)),
-        np.concatenate((first_side.raw.numbers, np.zeros(1), second_side.raw.numbers)),
-    )
-    bridge = np.full(1, RawPart.BRIDGE.value, np.uint8)
-    parts = np.concatenate((first_side.parts, bridge, second_side.parts))
+    ends = np.array((first_side.raw.points[-1], second_side.raw.points[0]))
+    bridge = Path.of(ends, np.zeros((1, 2)), np.zeros(1, np.int8), np.zeros(1))
+    kinds = np.full(1, RawPart.BRIDGE.value, np.uint8)
+    half_steps = (first_side.half_steps, first_side.half_steps[-1:] + 1, second_side.half_steps + shift)
     return RawChain(
-        path,
-        parts,
-        np.concatenate((first_side.half_steps, first_side.half_steps[-1:] + 1, second_side.half_steps + shift)),
+        joined((first_side.raw, bridge, second_side.raw)),
+        np.concatenate((first_side.parts, kinds, second_side.parts)),
+        np.concatenate(half_steps),
     )
 
 
@@ -404,5 +399,4 @@ def _rebuilt(
     blunt_end[joined[separated]], blunt_start[after[separated]] = True, True
     following[joined[separated]], smooth[joined[separated]] = -1, False
     raw = replace(raw, start=start, end=end, lengths=high - low, following=following, smooth=smooth)
-    raw = replace(raw, blunt_start=blunt_start, blunt_end=blunt_end)
-    return raw.take(~vanished) if vanished.any() else raw
+    return replace(raw, blunt_start=blunt_start, blunt_end=blunt_end).take(~vanished)

@@ -49,7 +49,7 @@ def solve_block(block: Block, program: Program) -> SolvedBlock:
     """Return the block with its blanks calculated; problems become findings and are never raised."""
     start = _start(block, program)
     drafts, runs = _drafts(block, program.unit, start)
-    corners, adjusted = _corners(block, drafts), _adjustment(drafts)
+    corners, adjusted = _corners(block.segments, drafts), _adjustment(drafts)
     segments = tuple(_segment(index, draft, corners, adjusted.get(index)) for index, draft in enumerate(drafts))
     determined = list(takewhile(lambda segment: segment.start is not None and segment.end is not None, segments))
     known, (coolant, coolant_origin) = start.reading.known, start.coolant
@@ -105,19 +105,6 @@ def _drafts(block: Block, unit: Unit, start: _Start) -> tuple[list[Draft], tuple
         findings = (*reference_faults(contour, index), *item.result.findings)
         drafts[index] = replace(item, result=replace(item.result, findings=findings))
     return drafts, tuple(runs)
-
-
-def _corners(block: Block, drafts: Sequence[Draft]) -> Corners:
-    """Insert the blends and chamfers into the surface."""
-    corners = [index for index, segment in enumerate(block.segments) if isinstance(segment, CornerSegment)]
-    sizes = dict[int, float]()
-    for index in corners:
-        size_field, known = FIELDS_OF_FORM[form_of(block.segments[index])][0].name, drafts[index].reading.known
-        if size_field in known:
-            sizes[index] = known[size_field]
-    results = [draft.result for draft in drafts]
-    lengthless = {index for index, result in enumerate(results) if result.piece is None and result.end is not None}
-    return insert_corners(block.segments, [result.piece for result in results], sizes, lengthless.difference(corners))
 
 
 def _adjustment(drafts: Sequence[Draft]) -> dict[int, Finding]:
@@ -271,21 +258,20 @@ class Corners:
     waiting: set[int] = field(default_factory=set)
 
 
-def insert_corners(
-    segments: Sequence[Segment], pieces: Sequence[Piece | None], sizes: dict[int, float], lengthless: Set[int]
-) -> Corners:
-    """Return the pieces of the segments with every BLEND ARC and CHAMFER inserted.
-
-    `sizes` holds the typed radii and lengths (mm), `lengthless` the determined segments without length.
-    """
-    corners = Corners(list(pieces))
-    determined = lengthless | {index for index, piece in enumerate(pieces) if piece is not None}
+def _corners(segments: Sequence[Segment], drafts: Sequence[Draft]) -> Corners:
+    """Return the pieces of the segments with every BLEND ARC and CHAMFER inserted."""
+    corners, determined = Corners([draft.result.piece for draft in drafts]), set[int]()
+    for index, (segment, draft) in enumerate(zip(segments, drafts, strict=True)):
+        # a determined segment may have no length, and so no piece
+        if draft.result.piece is not None or (draft.result.end is not None and not isinstance(segment, CornerSegment)):
+            determined.add(index)
     for index, segment in enumerate(segments):
         if not isinstance(segment, CornerSegment):
             continue
         fault = _misplaced(segments, index, segment)
-        if fault is None and index in sizes:
-            fault = _insert_corner(corners.pieces, index, segment, sizes[index], determined)
+        size = drafts[index].reading.known.get(FIELDS_OF_FORM[form_of(segment)][0].name)
+        if fault is None and size is not None:
+            fault = _insert_corner(corners.pieces, index, segment, size, determined)
         if fault is not None:
             corners.faults[index] = fault
         if corners.pieces[index] is None:
