@@ -359,10 +359,11 @@ class FileActions(DerivationActions):
         self.push_screen(SaveAsScreen(name))
 
     def action_open_path(self) -> None:
-        """Ask for the path of a file to open."""
+        """Ask for the path of a file to open, in the folder that HOME shows, or else in the last one used."""
         from app.screens.entry_screen import OpenPathScreen
+        from app.screens.home import HomeScreen
 
-        folder = self.settings.folder
+        folder = str(self.screen.folder) if isinstance(self.screen, HomeScreen) else self.settings.folder
         self.push_screen(OpenPathScreen(f"{folder}/" if folder else ""))
 
     def save_as(self, text: str) -> None:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from asyncio import to_thread
+from textwrap import fill
 from typing import TYPE_CHECKING, ClassVar, Final
 
 from textual import on, work
@@ -20,6 +21,10 @@ from app.widgets.rows import OptionRows
 from core.progress import Stopped
 
 RUNNING: Final = "Every control is running the program ..."
+NAME_WIDTH: Final = 20
+"""The cells of a control's name."""
+MIN_WIDTH: Final = 40
+"""The narrowest width in cells to which an answer is wrapped."""
 
 if TYPE_CHECKING:
     from core.pipeline.checking import Answer
@@ -67,13 +72,15 @@ class CompareControls(Dialog["tuple[str, bool] | None"]):
             return
         self.query_one("#compare-wait").display = False
         rows = self.query_one("#compared", OptionList)
+        width = max(rows.content_region.width - rows.styles.scrollbar_size_vertical, MIN_WIDTH)
         for answer in self.answers:
             good = "$c-warn" if answer.warnings else "$c-good"
             role = "$c-err" if answer.errors else "$c-label" if answer.moves is None else good
             outcome = answer.outcome if answer.errors else answer.outcome_and_warnings
-            lines = [Content.assemble(f"{answer.name:<20}", (outcome, role))]
-            more = answer.stop_reason or answer.comparison
-            lines += [Content.styled(f"    {more}", "$c-label")] if more else []
+            head = fill(f"{answer.name:<{NAME_WIDTH}}{outcome}", width, subsequent_indent=" " * NAME_WIDTH)
+            lines = [Content.assemble(head[:NAME_WIDTH], (head[NAME_WIDTH:], role))]
+            if more := answer.stop_reason or answer.comparison:
+                lines.append(Content.styled(fill(f"    {more}", width, subsequent_indent=" " * 4), "$c-label"))
             rows.add_option(Option(Content("\n").join(lines), id=answer.control))
         rows.highlighted = 0
         rows.focus()

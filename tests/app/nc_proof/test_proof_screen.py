@@ -383,6 +383,10 @@ async def test_all_controls_are_compared_and_one_can_be_chosen(tmp_path):
         assert rows.option_count >= 8
         assert rows.get_option_at_index(0).id == "linuxcnc"
         prompts = {option.id: str(option.prompt) for option in rows.options}
+        wrapped = [line for prompt in prompts.values() for line in prompt.split("\n")[1:]]
+        assert wrapped
+        assert all(line.startswith("    ") and len(line) <= rows.size.width for line in wrapped)
+        prompts = {control: " ".join(prompt.split()) for control, prompt in prompts.items()}
         assert any("differs from linuxcnc" in prompt for prompt in prompts.values())
         assert "Write T and the number." in prompts["threeblock"]
         assert not any("On the command line" in prompt for prompt in prompts.values())
