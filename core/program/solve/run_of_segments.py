@@ -364,7 +364,7 @@ def _why_stuck(contour: TypedContour, run: Run, stuck: Branch, *, pick_tried: bo
     for index in range(1, len(run.elements)):
         if stuck.joint(index) is None and _on_same_curve(stuck, index):
             return reasons.coincident(run, index)
-    return reasons.unsolvable(run, tried=pick_tried)
+    return reasons.unsolvable(run, _may_be_tangent(contour, stuck), tried=pick_tried)
 
 
 def _may_be_tangent(contour: TypedContour, stuck: Branch) -> int | None:

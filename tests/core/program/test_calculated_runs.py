@@ -195,6 +195,8 @@ BAD = [
      case_of(line(angle=30), line(x_end=70, y_end=10, length=40))),
     ("NOT_YET", "Segments 1 and 2 cannot be calculated from these data yet: enter one end, or a center.",
      case_of(line(length=40), ccw(tangent=True, x_end=60, y_end=20, sweep=90))),
+    ("NOT_YET", "cannot be calculated from these data yet: enter one end, a center, or TANGENT YES on 2.",
+     case_of(ccw(radius=30, x_center=30, y_center=10), line(x_end=60, y_end=20))),
     ("TANGENT_PLACE", "Segment 1 has no segment before it to which it could be tangent: blank TANGENT.",
      case_of(line(tangent=True, x_end=5, y_end=5))),
     ("TANGENT_PLACE", "TANGENT cannot follow a BLEND ARC, which stands at a corner",

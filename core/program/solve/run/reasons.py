@@ -318,9 +318,13 @@ def _radius_follows(run: Run, element: Element) -> bool:
     return {"x_center_inc", "y_center_inc"} <= known.keys() or ({"x_center", "y_center"} <= known.keys() and point)
 
 
-def unsolvable(run: Run, *, tried: bool) -> Finding:
-    """The data suffice, but no method solves them; `tried` if the operator's pick leads to no solution either."""
-    text = f"{segments(run.elements)} cannot be calculated from these data yet: enter one end, or a center."
+def unsolvable(run: Run, tangent: int | None, *, tried: bool) -> Finding:
+    """The data suffice, but no method solves them; `tried` if the operator's pick leads to no solution either.
+
+    `tangent` is as in `missing`.
+    """
+    text = f"{segments(run.elements)} cannot be calculated from these data yet: enter one end, "
+    text += "or a center." if tangent is None else f"a center, or TANGENT YES on {tangent}."
     if tried:
         text += " The pick leads to no solution: set it nearer to the joint."
     return Finding("NOT_YET", Severity.ERROR, text, segment=run.elements[0].number)
