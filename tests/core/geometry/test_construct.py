@@ -168,6 +168,11 @@ def test_even_arc_keeps_a_center_that_fits():
     )
 
 
+def test_an_arc_that_is_even_but_for_rounding_keeps_its_center():
+    end, center = (50.0 * cos(2.0) + 1e-9, 50.0 * sin(2.0)), (0.0, 0.0)
+    assert construct.exact_arc((50.0, 0.0), end, center, Turn.CCW) == Arc((50.0, 0.0), end, center, Turn.CCW)
+
+
 def test_even_arc_moves_the_center_onto_the_bisector():
     arc = construct.exact_arc((0.0, 0.0), (2.0, 0.0), (1.001, 0.5), Turn.CW)
     assert near(arc.center, (1.0, 0.5))

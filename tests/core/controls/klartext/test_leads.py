@@ -81,9 +81,12 @@ def test_lct_on_its_circle_has_only_the_arc() -> None:
     assert near(approach(Lead(LeadShape.LCT, radius=10), (-10.0, 10.0), HERE, EAST, 1), (-10, 10), (0, 10), 1)
 
 
+@pytest.mark.parametrize("heading", [0.0, 0.7, 2.0, 4.0])
 @pytest.mark.parametrize(("start", "turn"), [((-30.0, 20.0), 1), ((-30.0, -20.0), -1)])
-def test_lct_without_compensation_curves_on_the_side_of_its_start(start: Point, turn: int) -> None:
-    curve = approach(Lead(LeadShape.LCT, radius=10), start, HERE, EAST, 0)
+def test_lct_without_compensation_curves_on_the_side_of_its_start(start: Point, turn: int, heading: float) -> None:
+    along, across = (cos(heading), sin(heading)), (-sin(heading), cos(heading))
+    turned = tuple(start[0] * along[axis] + start[1] * across[axis] for axis in (0, 1))
+    curve = approach(Lead(LeadShape.LCT, radius=10), (turned[0], turned[1]), HERE, along, 0)
     assert curve is not None
     assert curve.turn == turn
 
