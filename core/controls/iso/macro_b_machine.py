@@ -98,9 +98,9 @@ class MacroMachine(Machine):
     `unknown` are the axes whose position is unknown; `in_force` has the code of each group; `last_words` the values
     last programmed, for variables that read them; `line` is the line whose expressions are evaluated.
     `start_unknown`: the block's move starts at a machine position in the plane.  `has_height`: a Z has been programmed.
-    `raised`: since then a tool change has raised the tool.  `probed`: a probe may have stopped the last move.  `polar`
-    is the radius and angle last programmed under G16, None without it.  `following` is the next block if the corner
-    before it is to be rounded or chamfered; `corner_point` is that corner afterward.
+    `raised`: since then a change to another tool has raised it.  `probed`: a probe may have stopped the last move.
+    `polar` is the radius and angle last programmed under G16, None without it.  `following` is the next block if the
+    corner before it is to be rounded or chamfered; `corner_point` is that corner afterward.
     """
 
     def __init__(self, dialect: Dialect, control: Control, tools: ToolTable) -> None:
@@ -284,8 +284,10 @@ class MacroMachine(Machine):
     # codes
 
     def _take_tool(self, block: Block) -> None:
+        before = self.tool
         super()._take_tool(block)
-        self.raised |= self.has_height and TOOL_CHANGE in block.m
+        # with its tool already in the spindle, M6 may move nothing
+        self.raised |= self.has_height and TOOL_CHANGE in block.m and self.tool != before
 
     def _act(self, code: Code, block: Block) -> None:
         if code.action is CodeAction.SIDE and code.value != 400 and self.transform.flips(self.plane):
