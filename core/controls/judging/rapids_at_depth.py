@@ -13,11 +13,13 @@ from __future__ import annotations
 from bisect import bisect_right
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, replace
+from itertools import pairwise
 from math import inf
 from typing import Final
 
 import numpy as np
 from shapely import LineString, Point, unary_union
+from shapely.geometry.base import BaseGeometry
 
 from core.controls.control_run import ControlRun, Stretch
 from core.controls.judging.moves_above import surface_rows
@@ -129,11 +131,13 @@ def moves_through(
         return ()
     cuts, tools, all_contours = list[UncompensatedCut](), _Tools(run), _CutContours(contours)
     at_depth, over_walls, beside = (part(progress, third / 3.0, (third + 1) / 3.0) for third in range(3))
+    changes = {change.row for change in run.setups} | {change.row for change in run.spindle}
     for rows in runs_of(_low_rapids(run, max(contour.top for contour in contours))):
         at_depth(int(rows[0]) / len(run.moves))
-        moves = run.moves.part(int(rows[0]) - 1, int(rows[-1]) + 1)
-        setup = run.setup_at(int(rows[0]))
-        cuts += _cuts(moves, tools.cutting_radius(int(rows[0])), all_contours, setup, rapid=True)
+        starts = [int(rows[0]), *(row for row in rows[1:].tolist() if row in changes)]
+        for first, end in pairwise((*starts, int(rows[-1]) + 1)):
+            moves, setup = run.moves.part(first - 1, end), run.setup_at(first)
+            cuts += _cuts(moves, tools.cutting_radius(first), all_contours, setup, rapid=True)
     for row in np.flatnonzero(_low_rapids(run, inf)).tolist():
         over_walls(row / len(run.moves))
         below_zero = _below_zero(run.moves.part(row - 1, row + 1))
@@ -257,15 +261,21 @@ def _cuts_above(tools: _Tools, row: int, move: Moves, radius: float, contours: _
 
 
 def _is_cut_away(tools: _Tools, row: int, height: float, center: tuple[float, float], radius: float) -> bool:
-    """True if feed moves before a row have cut the tool's circle about a center free, at a height or below."""
-    moves = tools.run.moves.part(0, row)
+    """True if feed moves before a row have cut the tool's circle about a center free, at a height or below.
+
+    They are those of its setup.  A tool of unknown size has cut no more than the tool of the row would.
+    """
+    run, moves = tools.run, tools.run.moves.part(0, row)
     feeds = moves.low(height) & ~moves.rapid & moves.moving_in(Plane.XY)
     ends, arms = moves.points[:, :2], (moves.points - moves.centers)[:, :2]
     starts = np.vstack((ends[:1], ends[:-1]))
     # a line has its end as center: its arm has no length
     reach = radius + tools.largest + np.hypot(arms[:, :1], arms[:, 1:])
     far = (np.maximum(starts, ends) + reach < center) | (np.minimum(starts, ends) - reach > center)
-    near = np.flatnonzero(feeds & ~far.any(axis=1)).tolist()
-    chords = [(chords_of(moves.part(each - 1, each + 1).path(), CLEARED / 2.0), each) for each in near]
-    swept = unary_union([LineString(points).buffer(tools.radius(each)[0]) for points, each in chords])
-    return bool(swept.covers(Point(center).buffer(radius - CLEARED)))
+    cleared, setup = list[BaseGeometry](), run.setup_at(row)
+    for each in np.flatnonzero(feeds & ~far.any(axis=1)).tolist():
+        if run.setup_at(each) == setup:
+            points = chords_of(moves.part(each - 1, each + 1).path(), CLEARED / 2.0)
+            size, known = tools.radius(each)
+            cleared.append(LineString(points).buffer(size if known else radius))
+    return bool(unary_union(cleared).covers(Point(center).buffer(radius - CLEARED)))

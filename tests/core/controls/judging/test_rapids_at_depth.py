@@ -139,6 +139,14 @@ def test_a_rapid_in_another_setup_is_not_compared(control: str) -> None:
     assert not rapids(turned.format("-2."), control, "LOW-RAPID")
 
 
+def test_rapids_in_a_row_are_each_compared_with_their_own_setup() -> None:
+    """The bore of G55, 100 mm to the right, is not in the way of the rapids before G55."""
+    other_bore = BORE.replace("X20.", "X120.").replace("X30.", "X130.").replace("T1 M6\n", "G55\n")
+    text = f"{BORE}G0 Z50.\n{other_bore}G0 Z50.\nG54 X260.\nZ-5.\nX160.\n{{}} X161.\nX120.\nZ50.\nM30\n"
+    assert not rapids(text.format("G54"))
+    assert [finding.line for finding in rapids(text.format("G55"))] == [23]
+
+
 @pytest.mark.parametrize("control", ["fanuc:a", "haas:a"])
 def test_a_tool_change_ends_the_known_depth(control: str) -> None:
     """These machines raise the tool to change it; LinuxCNC leaves it where it is."""
@@ -265,6 +273,19 @@ def test_each_tool_cuts_away_what_its_own_size_reaches(rougher: str, count: int)
     rapid = "G0 X-30. Y14.\nZ-3.\nX50.\nG1 Z-8.\nG41 D1 X60.\nG3 I-10.\nG40 G1 X50.\nG0 Z50.\nM30\n"
     run = run_of(f"{head}{large}{rapid}", "fanuc:a", t1=10.0, t2=20.0)
     assert [finding.code for finding in judged_findings(judge_run(run))].count("LOW-RAPID") == count
+
+
+@pytest.mark.parametrize(("turned", "count"), [("B0\n", 0), ("B90.\n", 1)])
+def test_what_is_cut_away_from_another_face_does_not_clear_a_rapid(turned: str, count: int) -> None:
+    faced = f"{BORE}G0 Z50.\n{turned}G0 X-30. Y20.\nG1 Z-3.\nX130.\nG0 Z50.\nB0\nX20.\n"
+    assert len(rapids(f"{faced}Z-2.\nX70.\nZ50.\nM30\n", code="LOW-RAPID")) == count
+
+
+def test_a_tool_of_unknown_size_clears_no_more_than_its_axis_for_itself() -> None:
+    """An engraver, which compensates nowhere, is not as large as the tool of the bore."""
+    engraved = f"{BORE}G0 Z50.\nT3 M6\nG0 X20.\nG43 H3 Z5.\nG1 X40. Y15. F200.\nZ-1.\nX20. Y20.\nG0 Z50.\n"
+    assert not rapids(f"{engraved}Z-.5\nX40. Y15.\nZ50.\nM30\n", code="LOW-RAPID")
+    assert rapids(f"{engraved}Y22.\nZ-.5\nX40. Y17.\nZ50.\nM30\n", code="LOW-RAPID")
 
 
 @pytest.mark.parametrize("control", CONTROLS)
