@@ -77,7 +77,8 @@ _ARGUMENTS_WITHOUT_POINT: Final = re.compile(f"[ABCIJKQRUVWXYZ]{_NO_POINT}")
 _ARC: Final = re.compile(r"G0?[23](?![0-9])|[IJ]")
 _SCALE: Final = re.compile(r"G51(?![.0-9])")
 _MACRO_CALL: Final = re.compile(r"G6[56]")
-_NO_LENGTHS: Final = re.compile(r"G0?5(?![0-9])|M9[6789]|M19[ \t]*+R")
+_NO_LENGTHS: Final = re.compile(r"G0?5(?![0-9])|M9[6789]")
+_SPINDLE_ANGLE: Final = re.compile(r"(M19[ \t]*+)R")
 _LETTERS: Final = re.compile(r"(?<![A-Z])(?!DPRNT|BPRNT|POPEN|PCLOS|SETVN)[A-Z]{2,}(?![A-Z\[])|[A-Z][ \t]++[A-Z]{2}")
 _FOR_EDITORS: Final = re.compile(r"[ \t]*+(?:\$[a-z]|#(?:end)?region\b)", re.IGNORECASE)
 """Lines such as $AddRegPart and #region, which never reach a control."""
@@ -331,7 +332,8 @@ class MacroFlow(Flow):
             pattern = _WITHOUT_POINT if centered else _WITHOUT_POINT_NO_CENTER
             pattern = _ARGUMENTS_WITHOUT_POINT if _MACRO_CALL.search(bare) else pattern
             line, column = self.spots[row]
-            self.no_point += [(match[0], Spot(line, match.start() + column)) for match in pattern.finditer(bare)]
+            lengths = pattern.finditer(_SPINDLE_ANGLE.sub(r"\1P", bare))
+            self.no_point += [(match[0], Spot(line, match.start() + column)) for match in lengths]
 
     def _report_unset(self, row: int) -> None:
         """Report the first common variable that a row reads before the program sets it."""

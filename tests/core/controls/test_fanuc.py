@@ -841,6 +841,7 @@ def test_a_tool_change_under_compensation_is_reported(control: str) -> None:
         ("M96 P10 Q5\nM30", 0),
         ("M19 R90\nM30", 0),
         ("X7 M19\nM30", 1),
+        ("M19 R90 X7\nM30", 9),
     ],
 )
 def test_lengths_without_a_decimal_point_are_reported_and_counts_are_not(blocks: str, column: int) -> None:
