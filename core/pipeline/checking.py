@@ -299,7 +299,11 @@ def _idle_compensation(done: ControlRun, text: bytes) -> tuple[Finding, ...]:
     compensates = _COMPENSATES_KLARTEXT if is_klartext(done.control) else _COMPENSATES
     lines = enumerate(lines_of(text), 1)
     line = next((number for number, line in lines if compensates.search(without_comments(line.upper()))), None)
-    if line is None or any(each.code == "NOT_RUN" and (each.line or 0) <= line for each in done.findings):
+    if line is None:
+        return ()
+    # lines that were not run from another finding's place on are reported there
+    ran_before = max((ran for ran in done.moves.lines.tolist() if ran < line), default=0)
+    if any(each.code == "NOT_RUN" and ran_before < (each.line or 0) <= line for each in done.findings):
         return ()
     message = "Compensation is programmed here, but no compensated move is run: nothing is judged. "
     message += "Check the loops, jumps and calls that lead here."

@@ -315,6 +315,21 @@ def test_compensation_in_a_subprogram_that_nothing_calls_is_one_warning(control:
     assert [finding.line for finding in row.findings if finding.code == "NOT_RUN"] == [5]
 
 
+@pytest.mark.parametrize(
+    ("text", "lines"),
+    [
+        ("G0 X5.\n%\n{}GOTO 9\n{}N9 M30\n%\n", [1, 8]),
+        ("{}M98 P3\nM30\nO2\nG0 Z5.\nM99\nO3\nG0 Z9.\nGOTO 9\n{}N9 M99\n", [6, 13]),
+        ("{}M30\nO2\nG0 Z5.\nM99\nO3\nG0 Z9.\n{}M99\n", [5]),
+    ],
+)
+def test_compensation_is_not_taken_for_other_lines_that_are_not_run(text: str, lines: list[int]) -> None:
+    contour = "G1 F300.\nG41 D1 X30.\nG3 I-10.\nG40 G1 X20.\n"
+    program = text.format("G21 G17 G90 G40\nT1 M6\nG0 X20. Y20.\n", contour)
+    row = answer(program.encode(), request_for("fanuc:a", CutterTool(1, 10.0)))
+    assert sorted(finding.line or 0 for finding in row.findings if finding.code == "NOT_RUN") == lines
+
+
 @pytest.mark.parametrize(("contour", "lines"), [("", [5]), ("Y40.\n", []), ("Z-6.\n", [5])])
 @pytest.mark.parametrize("control", ["fanuc:a", "haas:a", "nine-series:a", "linuxcnc"])
 def test_compensation_without_a_contour_is_a_warning(control: str, contour: str, lines: list[int]) -> None:
