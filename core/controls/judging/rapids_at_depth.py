@@ -11,7 +11,7 @@ it have cut all that away.
 from __future__ import annotations
 
 from bisect import bisect_right
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator, Sequence, Set
 from dataclasses import dataclass, replace
 from itertools import pairwise
 from math import inf
@@ -69,10 +69,10 @@ class _CutContours:
     def __init__(self, contours: Sequence[CutContour]) -> None:
         self.contours, self.tree = contours, PathTree([contour.path for contour in contours])
 
-    def near(self, path: Path, reach: float, setup: int) -> list[CutContour]:
-        """Return the contours of a setup that the tool may reach along a path."""
+    def near(self, path: Path, reach: float, setups: Set[int]) -> list[CutContour]:
+        """Return the contours of these setups that the tool may reach along a path."""
         near = (self.contours[row] for row in self.tree.near(path, reach))
-        return [contour for contour in near if contour.setup == setup]
+        return [contour for contour in near if contour.setup in setups]
 
 
 def highest_cut(stretch: Stretch) -> float:
@@ -134,10 +134,10 @@ def moves_through(
     changes = {change.row for change in run.setups} | {change.row for change in run.spindle}
     for rows in runs_of(_low_rapids(run, max(contour.top for contour in contours))):
         at_depth(int(rows[0]) / len(run.moves))
-        starts = [int(rows[0]), *(row for row in rows[1:].tolist() if row in changes)]
+        starts = [int(rows[0]), *(row for row in rows[1:].tolist() if not changes.isdisjoint((row, row - 1)))]
         for first, end in pairwise((*starts, int(rows[-1]) + 1)):
-            moves, setup = run.moves.part(first - 1, end), run.setup_at(first)
-            cuts += _cuts(moves, tools.cutting_radius(first), all_contours, setup, rapid=True)
+            moves = run.moves.part(first - 1, end)
+            cuts += _cuts(moves, tools.cutting_radius(first), all_contours, _setups(run, first), rapid=True)
     for row in np.flatnonzero(_low_rapids(run, inf)).tolist():
         over_walls(row / len(run.moves))
         below_zero = _below_zero(run.moves.part(row - 1, row + 1))
@@ -147,8 +147,8 @@ def moves_through(
         beside(first / len(run.moves))
         own_contours = [contour for contour in contours if stretch.has_part(contour.stretch)]
         if own_contours:
-            moves, setup = run.moves.part(first, last), own_contours[0].setup
-            cuts += _cuts(moves, stretch.radius, _CutContours(own_contours), setup, rapid=False)
+            moves, setups = run.moves.part(first, last), {own_contours[0].setup}
+            cuts += _cuts(moves, stretch.radius, _CutContours(own_contours), setups, rapid=False)
     # a cut at depth takes precedence, and a wall that is already cut over one that is yet to be cut
     ranked = sorted(
         cuts, key=lambda cut: (not cut.above, cut.gouge.surface_number < cut.gouge.path_number, cut.gouge.depth)
@@ -224,10 +224,17 @@ def _low_rapids(run: ControlRun, top: float) -> Flags:
     return low
 
 
-def _cuts(moves: Moves, radius: float, contours: _CutContours, setup: int, *, rapid: bool) -> list[UncompensatedCut]:
+def _setups(run: ControlRun, row: int) -> set[int]:
+    """Return the setups of a row: the first move of one starts among the contours of the setup before."""
+    return {run.setup_at(row - 1), run.setup_at(row)}
+
+
+def _cuts(
+    moves: Moves, radius: float, contours: _CutContours, setups: Set[int], *, rapid: bool
+) -> list[UncompensatedCut]:
     path, height = moves.path(), float(moves.points[:, 2].max())
     cuts = list[UncompensatedCut]()
-    for contour in contours.near(path, radius, setup):
+    for contour in contours.near(path, radius, setups):
         if height > contour.top + ON_PATH:
             continue
         verdict = judge(contour.path, contour.stretch.side, radius, path, contour.accepted, measures_uncut=False)
@@ -252,18 +259,24 @@ def _cuts_above(tools: _Tools, row: int, move: Moves, radius: float, contours: _
     """Return the cuts of a rapid into contours that are cut lower, unless feed moves before have cut all that away."""
     path, low, high = move.path(), float(move.points[:, 2].min()), float(move.points[:, 2].max())
     cuts = list[UncompensatedCut]()
-    for contour in contours.near(path, radius, tools.run.setup_at(row)):
+    for contour in contours.near(path, radius, _setups(tools.run, row)):
         if high <= contour.top + ON_PATH:
             continue
         verdict = judge(contour.path, contour.stretch.side, radius, path, contour.accepted, measures_uncut=False)
-        cuts += [UncompensatedCut(gouge, low, rapid=True, above=True) for gouge in verdict.gouges]
-    return [cut for cut in cuts if not _is_cut_away(tools, row, low, cut.gouge.at, radius)]
+        cuts += [
+            UncompensatedCut(gouge, low, rapid=True, above=True)
+            for gouge in verdict.gouges
+            if not _is_cut_away(tools, row, low, gouge.at, radius, contour.setup)
+        ]
+    return cuts
 
 
-def _is_cut_away(tools: _Tools, row: int, height: float, center: tuple[float, float], radius: float) -> bool:
-    """True if feed moves before a row have cut the tool's circle about a center free, at a height or below.
+def _is_cut_away(
+    tools: _Tools, row: int, height: float, center: tuple[float, float], radius: float, setup: int
+) -> bool:
+    """True if feed moves of a setup before a row have cut the tool's circle about a center free, at a height or below.
 
-    They are those of its setup.  A tool of unknown size has cut no more than the tool of the row would.
+    A tool of unknown size has cut no more than the tool of the row would.
     """
     run, moves = tools.run, tools.run.moves.part(0, row)
     feeds = moves.low(height) & ~moves.rapid & moves.moving_in(Plane.XY)
@@ -272,7 +285,7 @@ def _is_cut_away(tools: _Tools, row: int, height: float, center: tuple[float, fl
     # a line has its end as center: its arm has no length
     reach = radius + tools.largest + np.hypot(arms[:, :1], arms[:, 1:])
     far = (np.maximum(starts, ends) + reach < center) | (np.minimum(starts, ends) - reach > center)
-    cleared, setup = list[BaseGeometry](), run.setup_at(row)
+    cleared = list[BaseGeometry]()
     for each in np.flatnonzero(feeds & ~far.any(axis=1)).tolist():
         if run.setup_at(each) == setup:
             points = chords_of(moves.part(each - 1, each + 1).path(), CLEARED / 2.0)

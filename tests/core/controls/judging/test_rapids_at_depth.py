@@ -147,6 +147,17 @@ def test_rapids_in_a_row_are_each_compared_with_their_own_setup() -> None:
     assert [finding.line for finding in rapids(text.format("G55"))] == [23]
 
 
+@pytest.mark.parametrize("control", CONTROLS)
+@pytest.mark.parametrize("change", ["G55 G0 X70.\n", "B90.\nG0 X70.\n"])
+def test_a_retract_that_is_forgotten_before_another_setup_is_a_warning(change: str, control: str) -> None:
+    """The move into the other setup still starts in the bore; the next one is clear of it."""
+    assert [finding.line for finding in rapids(f"{BORE}{change}X-50.\nM30\n", control)] == [8 + change.count("\n")]
+    low = f"{BORE}G0 Z-1.\n{change}X-50.\nM30\n"
+    (warning,) = rapids(low, control, "LOW-RAPID")
+    assert warning.line == 9 + change.count("\n")
+    assert f"of line {warning.line} runs" in warning.text
+
+
 @pytest.mark.parametrize("control", ["fanuc:a", "haas:a"])
 def test_a_tool_change_ends_the_known_depth(control: str) -> None:
     """These machines raise the tool to change it; LinuxCNC leaves it where it is."""
