@@ -187,7 +187,7 @@ class Machine(ModalState):
                 non_modal = code
             elif not self.control.active or self.control.takes_effect(code.value, block):
                 self._set(code, block)
-        self._take_other_axes(block)
+        self._take_other_axes(block, homes=non_modal is not None and non_modal.action is CodeAction.HOME)
         self._note_setup()
         if self.dialect.unit_first and "F" in block.words:
             self.feed = block.words["F"] * self.scale
@@ -312,15 +312,15 @@ class Machine(ModalState):
         if change[1:] != self.spindle[-1][1:]:
             self.spindle.append(change)
 
-    def _take_other_axes(self, block: Block) -> None:
-        """Note where the axes are that are not followed; warn when a new one appears."""
+    def _take_other_axes(self, block: Block, *, homes: bool) -> None:
+        """Note where the axes are that are not followed, 0 if the block homes them; warn when a new one appears."""
         for letter in _OTHER_AXES:
             if letter not in block.words:
                 continue
             if letter not in self.other_axes:
                 self.log.warn("AXIS", f"cutcomp does not follow axis {letter}, only X, Y and Z.", block.at(letter))
             before = self.other_axes.get(letter, 0.0) if self.incremental else 0.0
-            self.other_axes[letter] = before + block.words[letter]
+            self.other_axes[letter] = 0.0 if homes else before + block.words[letter]
 
     def _note_setup(self) -> None:
         """Note the work offset that the program does not set, and the other axes that are not at 0, on a change."""

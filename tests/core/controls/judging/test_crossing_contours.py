@@ -124,7 +124,7 @@ def test_contours_under_different_work_offsets_or_clampings_are_not_compared(bet
     assert not told(box(0, 0, 40, -5), between, box(30, 0, 40, -5))
 
 
-@pytest.mark.parametrize("back", ["G54\nG0 B0\n", "G91 B-90\nG90 G54\n"])
+@pytest.mark.parametrize("back", ["G54\nG0 B0\n", "G91 B-90\nG90 G54\n", "G91 G28 B0\nG90 G54\n"])
 def test_a_setup_that_comes_again_is_compared_with_itself(back: str) -> None:
     """Three faces on a rotary table, each with its own contours in the same X and Y."""
     face = box(0, 0, 40, -5)
