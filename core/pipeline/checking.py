@@ -316,7 +316,7 @@ def _has_no_contour(done: ControlRun, stretch: Stretch) -> bool:
 
 
 def _without_contour(stretch: Stretch) -> Finding:
-    text = "Compensation ends right after this move, which turns it on: the move slants, and nothing is judged."
+    text = "Compensation turns on with this move and ends right after it: the move slants, and no contour is judged."
     return Finding("NO-CONTOUR", Severity.WARNING, text, line=int(stretch.programmed.lines[stretch.entry]) or None)
 
 

@@ -109,7 +109,7 @@ def _low_rapids(result: JudgedContour) -> Iterator[Finding]:
     named = f"rapid of line {listed} runs" if len(lines) == 1 else f"rapids of lines {listed} run"
     lowest = min(cuts, key=lambda cut: cut.height)
     text = f"The {named} below Z 0 over a wall that is cut deeper, first at X {{x}} Y {{y}}, lowest at Z {{0}}. "
-    text += "Check the sign of Z, and that the part is cleared there."
+    text += "Check the sign of Z, and that the material there is already cut away."
     at, line = cuts[0].gouge.surface_at, line_of(cuts[0].gouge.path_number)
     yield Finding("LOW-RAPID", Severity.WARNING, text, at=at, lengths=(lowest.height,), line=line)
 

@@ -246,7 +246,7 @@ def test_a_rapid_below_zero_over_a_deeper_wall_is_reported(control: str) -> None
     assert (warning.line, warning.severity) == (10, Severity.WARNING)
     assert sentence(warning, Unit.MM) == (
         "The rapids of lines 10, 11 run below Z 0 over a wall that is cut deeper, first at X 30.000 Y 20.000, "
-        "lowest at Z -1.000. Check the sign of Z, and that the part is cleared there."
+        "lowest at Z -1.000. Check the sign of Z, and that the material there is already cut away."
     )
     assert not rapids(program.replace("Z-1.", "Z1."), control, "LOW-RAPID")
     assert not rapids(program.replace("Z-1.", "Z-5."), control, "LOW-RAPID")
