@@ -139,7 +139,9 @@ class _OpenDocument:
         journal, gone = self.journal, False
         if journal is not None and journal.lost():
             journal.close()
-            journal, gone = None, True
+            # None until another one is begun: a journal without its first line could not be read
+            self.journal = journal = None
+            gone = True
         if journal is None:
             self.begin(now)
         else:
@@ -213,9 +215,10 @@ class _OpenDocument:
 
     def leave_journal(self, now: str) -> None:
         """Close the journal of unsaved work; try once more to write what failed before, as the disk may have room."""
-        if self.journal is not None:
+        if self.journal is not None or self.failing:
             with suppress(OSError, StoreError):
                 self.write(self.latest, now)
+        if self.journal is not None:
             self.journal.close()
 
 

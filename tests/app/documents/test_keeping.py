@@ -252,6 +252,31 @@ def test_a_lost_journal_is_rewritten_in_full_and_reported(
     assert started(state, file).answer("RESTORE").work == operator.work
 
 
+@pytest.mark.parametrize("killed", [True, False])
+def test_a_lost_journal_begins_anew_as_soon_as_a_folder_takes_it(state: Path, file: Path, *, killed: bool) -> None:
+    data = file.read_bytes()
+    operator = started(state, file).type(7)
+    shutil.rmtree(file.parent)
+    state.touch()
+    assert operator.type(8).said.startswith("Not on disk: ")
+    file.parent.mkdir()
+    file.write_bytes(data)
+    if killed:
+        assert operator.type(9).said == "Work is kept on the disk again."
+        operator.killed()
+    else:
+        operator.service.stop()
+    state.unlink()
+    assert started(state, file).answer("RESTORE").work == operator.work
+
+
+def test_a_journal_that_cannot_begin_anew_does_not_keep_the_program_from_ending(state: Path) -> None:
+    operator = started(state).type(7)
+    shutil.rmtree(state)
+    state.touch()
+    operator.service.stop()
+
+
 def test_a_lost_state_folder_is_created_again(state: Path) -> None:
     operator = started(state).type(7)
     shutil.rmtree(state)
