@@ -288,8 +288,14 @@ class ContourScreen(BlockActions, FormScreen):
         """Show the other fields as a half-typed number would make them, or as they were."""
         trial = displayed is not self.current_session
         if trial or self._shows_trial:
-            typed = self.current.name if trial and self.current is not None else None
-            self.form().show([cell for cell in cells_at(displayed) if cell.name != typed])
+            inputs = {name: row.input for name, row in self.form().rows.items() if trial}
+            # also a field that a click has left, until its text is taken: it must not pass for the program's
+            typed = {
+                name
+                for name, each in inputs.items()
+                if each is not None and (each is self.current or (isinstance(each, NumberField) and each.edited))
+            }
+            self.form().show([cell for cell in cells_at(displayed) if cell.name not in typed])
             self._show_titles(displayed)
             self._shows_trial = trial
 

@@ -301,6 +301,17 @@ async def test_the_letters_a_message_offers_work(user: Operator):
     assert isinstance(user.session.segment, LineSegment)
 
 
+async def test_a_number_is_taken_if_its_trial_is_shown_just_when_a_click_leaves_the_field(user: Operator):
+    await user.press("tab", "8")
+    await user.finish()
+    trial = user.app.displayed
+    assert trial.program.blocks[0].tool == Number(8.0)
+    user.screen.set_focus(user.row("x_start").input)
+    user.app.displayed = replace(trial)
+    await user.settle()
+    assert (user.at, user.session.block.tool) == ("x_start", Number(8.0))
+
+
 async def test_a_letter_leads_back_from_every_empty_kind_of_segment(user: Operator):
     await user.begin("notch")
     await user.press("ctrl+end", "pagedown")
