@@ -44,13 +44,13 @@ class KeyOrder:
         return self._handing_on is not None and not self._handing_on.done()
 
     def take(self, message: Message) -> None:
-        """Take a message from the terminal; keys and pasted text wait for their turn."""
-        if not isinstance(message, events.Key | events.Paste):
+        """Take a message from the terminal; keys and pasted text wait for their turn, a mouse behind them too."""
+        if isinstance(message, events.Key | events.Paste) or (self.busy and isinstance(message, events.MouseEvent)):
+            self.waiting.append(message)
+            if not self.busy:
+                self._handing_on = get_running_loop().create_task(self._hand_on())
+        else:
             self.app.post_message(message)
-            return
-        self.waiting.append(message)
-        if not self.busy:
-            self._handing_on = get_running_loop().create_task(self._hand_on())
 
     async def _hand_on(self) -> None:
         while self.waiting:

@@ -74,6 +74,24 @@ async def test_numbers_after_a_command_of_the_palette_go_to_the_form_that_it_ope
         assert user.session.block.y_start == Number(1.25)
 
 
+@pytest.mark.parametrize("typed", ["8", "12"])
+async def test_a_click_right_after_keys_moves_the_cursor_after_them(user: Operator, typed: str):
+    await user.press("tab")
+    x, y = user.row("x_start").input.region.offset
+    order = KeyOrder(user.app)
+    for key in typed:
+        order.take(events.Key(key, key))
+    kinds: tuple[type[events.MouseEvent], ...] = (events.MouseDown, events.MouseUp)
+    for kind in kinds:
+        order.take(kind(None, x, y, 0, 0, 1, False, False, False))
+    order.take(events.Key("9", "9"))
+    while order.busy:
+        await asyncio.sleep(0.001)
+    await user.press("enter")
+    block = user.session.block
+    assert (block.tool, block.x_start) == (Number(float(typed)), Number(9.0))
+
+
 async def test_random_keys_sent_at_once_act_as_when_sent_one_by_one():
     random = Random(20261123)
     keys = ("pagedown", "pageup", "tab", "down", "up", "enter", "1", "2", "5", "escape", "ctrl+z", "backspace")
