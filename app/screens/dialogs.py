@@ -155,7 +155,8 @@ class Steps(Question):
 def _line(answer: Answer) -> str:
     key = "Esc" if answer.word == GO_BACK else answer.word[0]
     words = f" {key:<4}{answer.word}{f', {answer.effect}' if answer.effect else ''}"
-    return fill(words, ANSWER_WIDTH, subsequent_indent=" " * 5)
+    # a file's name must not look like two
+    return fill(words, ANSWER_WIDTH, subsequent_indent=" " * 5, break_on_hyphens=False)
 
 
 class Phrase(Dialog[str]):

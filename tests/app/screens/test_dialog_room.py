@@ -26,15 +26,20 @@ async def test_a_question_with_many_lines_shows_all_its_answers_at_60x20() -> No
 
 
 async def test_the_second_line_of_an_answer_begins_below_its_word() -> None:
-    answers = [Answer("DISCARD", "kept as a backup; Ctrl+O lists it")]
+    answers = [
+        Answer("DISCARD", "kept as a backup; Ctrl+O lists it"),
+        Answer("KEEP BOTH", "yours is saved as left-hand-jaw.mine-2025-03-04-140509.toml"),
+    ]
     async with operator("pocket") as user:
         user.app.push_screen(Question("UNSAVED WORK FOUND", ["No name, 1 edit."], answers, "GO BACK"))
         await user.settle()
         options = user.app.screen.query_one(OptionList)
-        rows = ["".join(segment.text for segment in options.render_line(y)).rstrip() for y in range(3)]
+        rows = ["".join(segment.text for segment in options.render_line(y)).rstrip() for y in range(5)]
         assert rows == [
             " D   DISCARD, kept as a backup; Ctrl+O lists",
             "     it",
+            " K   KEEP BOTH, yours is saved as",
+            "     left-hand-jaw.mine-2025-03-04-140509.toml",
             " Esc GO BACK, nothing changes",
         ]
 
