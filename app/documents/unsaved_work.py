@@ -149,7 +149,7 @@ def _still_wants_answer(path: Path) -> bool:
 
 def never_saved(folder: Path, state: Path) -> list[Path]:
     """Return a folder's programs that have a journal but no file yet; raise OSError if the folder cannot be read."""
-    journals = [path for path in folder.iterdir() if path.name.endswith(JOURNAL_SUFFIX)]
+    journals = [path for path in folder.iterdir() if path.name.endswith(JOURNAL_SUFFIX) and path.name.startswith(".")]
     named = [(folder / path.name[1:].removesuffix(JOURNAL_SUFFIX), path) for path in journals]
     for path in entries(state):
         file = folder / path.name.removesuffix(JOURNAL_SUFFIX).rpartition("-")[0]

@@ -466,6 +466,8 @@ def test_never_saved_programs_are_listed(state: Path, part: Path, monkeypatch: p
     started(state, part.with_name("flap.toml")).type(7).killed()
     monkeypatch.setattr(os, "access", lambda *_: False)
     started(state, part.with_name("lid.toml")).type(7).killed()
+    copied = part.with_name(f"plate.toml{JOURNAL_SUFFIX}")
+    copied.write_bytes(journal_path(part.with_name("flap.toml")).read_bytes())
     assert [path.name for path in never_saved(part.parent, state)] == ["flap.toml", "lid.toml"]
 
 
