@@ -287,7 +287,7 @@ class CutcompApp(TransformActions):
         elif self.take_typed():
             proof = self.proof
             file = self.session.file if proof is None else proof.document.file.path
-            self.push_screen(HomeScreen(current_folder() if file is None else file.absolute().parent))
+            self.push_screen(HomeScreen(current_folder() if file is None else (current_folder() / file).parent))
 
     def action_parameters(self) -> None:
         """Show PROGRAM PARAMETERS."""

@@ -409,7 +409,8 @@ class FileActions(DerivationActions):
             await self.run_action("app.back")
             if len(self.screen_stack) == 1 and self.document.is_new and path is not None:
                 # cutcomp was started on an NC text: go to its folder, not to a form that was never used
-                self.show_folder(path.absolute().parent, path.absolute())
+                file = paths.current_folder() / path
+                self.show_folder(file.parent, file)
 
     @work(group="question")
     async def _save(self, proof: ProofScreen | None, path: Path | None) -> None:

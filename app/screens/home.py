@@ -26,7 +26,7 @@ from app.documents.folder_list import (
     facts_of,
     openable_files,
 )
-from app.documents.paths import short_path
+from app.documents.paths import current_folder, short_path
 from app.screens.base import NO_LIST_KEYS, BaseScreen
 from app.session.formats import counted, length
 from app.session.messages import Sentence, Tone
@@ -88,7 +88,7 @@ class HomeScreen(BaseScreen):
         """List the files, with the cursor on the open one unless another is asked for."""
         proofs = self.host.proofs
         file = proofs[-1].document.file.path if proofs else self.current_session.file
-        self.show_folder(self.folder, at=self._at or (None if file is None else file.absolute()))
+        self.show_folder(self.folder, at=self._at or (None if file is None else current_folder() / file))
 
     def on_screen_resume(self) -> None:
         """Refresh the list, except the first time: files may have changed behind another screen."""

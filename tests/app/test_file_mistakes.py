@@ -3,13 +3,14 @@
 from __future__ import annotations
 
 import os
+import shutil
 from pathlib import Path
 
 import pytest
 from textual.widgets import DataTable, Input, Label
 
 from app.app import CutcompApp
-from app.documents.document_service import DocumentService
+from app.documents.document_service import DocumentService, Opened
 from app.documents.files import load
 from app.documents.programs import example
 from app.file_actions import session_of
@@ -18,6 +19,7 @@ from app.screens.contour import ContourScreen
 from app.screens.dialogs import Phrase, Question
 from app.screens.home import HomeScreen
 from app.session.session import Session
+from core.program.file.write import dumps
 from core.program.model import Number
 from tests.app.test_file_actions import DEAD, at_work, folder, journals
 from tests.app.widget_pilot import SURROUNDINGS, Operator, operator
@@ -292,6 +294,24 @@ async def test_a_deleted_current_folder_is_reported_on_saving(folder, monkeypatc
         assert "there is no such file or folder" in user.prompt
         await user.press("escape", "ctrl+o")
         assert isinstance(app.screen, HomeScreen)
+    service.stop()
+
+
+@pytest.mark.parametrize("name", ["lid.toml", "lid.nc"])
+async def test_home_opens_where_the_folder_of_the_open_file_is_gone(folder, monkeypatch, name):
+    gone = folder / "gone"
+    gone.mkdir()
+    monkeypatch.chdir(gone)
+    (gone / name).write_text("M30\n" if name == "lid.nc" else dumps(load(example("pocket"))))
+    service = DocumentService(state=folder / "own")
+    opened = service.open(Path(name))
+    assert isinstance(opened, Opened)
+    app = CutcompApp(service=service, opened=opened)
+    async with Operator.of(app) as user:
+        shutil.rmtree(gone)
+        await user.press("escape" if name == "lid.nc" else "ctrl+o")
+        await user.finish()
+        assert isinstance(user.screen, HomeScreen)
     service.stop()
 
 
