@@ -672,3 +672,12 @@ async def test_the_tool_dialog_quotes_the_diameter_from_a_comment(tmp_path):
         lines = user.app.screen.query_one("#loss", Static)
         assert "The comment in line 2 says diameter 0.5000." in str(lines.content)
         await user.press("escape")
+
+
+async def test_an_alarm_after_a_gouge_is_read_in_full_beside_the_tools(tmp_path):
+    async with at_proof(tmp_path, PROGRAM.replace(b"M2\n", b"T9 M6\nM2\n")) as user:
+        await with_tool(user, "1=.25")
+        await with_tool(user, "51=10.6mm")
+        assert user.outcome.startswith("gouges by 0.1250 at line 6, then alarms at line 7 (")
+        outcome = user.proof.query_one("#proof-outcome", Static)
+        assert len("gouges by 0.1250 at line 6, then alarms at line 7") <= outcome.content_region.width
