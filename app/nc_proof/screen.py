@@ -35,10 +35,11 @@ from app.widgets.softkeys import Softkey
 from app.widgets.status import Status
 from app.widgets.verdict import MARKS_OF_CHARACTERS
 from core.controls.control_names import display_name
-from core.controls.control_tools import CutterTool, ToolId, ToolTable, commented_size, tool_id
+from core.controls.control_tools import CommentedSize, CutterTool, ToolId, ToolTable, commented_size, tool_id
 from core.controls.registry import choices
 from core.finding import Finding, Severity
 from core.progress import Stopped, part
+from core.tolerance import ROUNDING
 from core.units import Kind, Unit, Unreadable, parse, sentence
 
 if TYPE_CHECKING:
@@ -304,7 +305,9 @@ class ProofScreen(BaseScreen):
     def _show_result(self, result: Result) -> None:
         if not self.is_live or result.request is not self.request:
             return
-        highlighted = self._highlighted_finding()
+        # a new run shows what is most severe; its verdicts keep what was chosen meanwhile
+        again = self.result is not None and self.result.request is result.request
+        highlighted = self._highlighted_finding() if again else None
         self.result = result
         # the most severe of a line's findings comes last, and stays
         ordered = sorted(self.result_findings, key=_severity, reverse=True)
@@ -579,12 +582,11 @@ class ProofScreen(BaseScreen):
         missing = None if self.result is None else self.result.answer.missing
         named = self.tool if missing is None else missing
         plain, other = ("12", ".5in") if self.unit is Unit.MM else (".5", "12.7mm")
-        comment = commented_size(self.document.text.texts, named)
-        comments = [] if comment is None else [f"The comment in line {comment.line} says diameter {comment.diameter}."]
+        comment = self._comment_on(named)
         lines = [
             f"Tool and diameter in {self.unit}: {named}={plain} or {named}={other}.",
             f"A number alone is the diameter of tool {named}. {named}= removes it.",
-            *comments,
+            *([] if comment is None else [_quoted(comment)]),
         ]
 
         def refusal(text: str) -> str:
@@ -601,10 +603,19 @@ class ProofScreen(BaseScreen):
             self._with_tools(typed_tools, tools)
             self.say(f"Tool {typed} has no diameter any more.")
 
+    def _comment_on(self, number: ToolId) -> CommentedSize | None:
+        return commented_size(self.document.text.texts, number)
+
     def _with_tool(self, tool: CutterTool) -> None:
         self.tool = tool.number
         self._with_tools({**self.typed_tools, tool.number: tool}, {**self.request.tools, tool.number: tool})
-        self.say(f"Tool {tool.number}: diameter {tool.diameter:g} {tool.unit or self.unit}.")
+        said = f"Tool {tool.number}: diameter {tool.diameter:g} {tool.unit or self.unit}."
+        comment = self._comment_on(tool.number)
+        size = None if comment is None else parse(comment.diameter, Kind.LENGTH, self.unit)
+        if comment is not None and isinstance(size, float) and abs(size - tool.diameter) > ROUNDING:
+            self.say(f"{said} {_quoted(comment)}", Tone.WARNING)
+        else:
+            self.say(said)
 
     def _with_tools(self, typed_tools: ToolTable, tools: ToolTable) -> None:
         self.typed_tools = typed_tools
@@ -642,6 +653,10 @@ class ProofScreen(BaseScreen):
 def _severity(finding: Finding) -> int:
     """Return a number for sorting, 0 for the most severe."""
     return list(Severity).index(finding.severity)
+
+
+def _quoted(comment: CommentedSize) -> str:
+    return f"The comment in line {comment.line} says diameter {comment.diameter}."
 
 
 def read_tool(text: str, tool: ToolId, unit: Unit) -> CutterTool | ToolId | Unreadable:

@@ -674,6 +674,16 @@ async def test_the_tool_dialog_quotes_the_diameter_from_a_comment(tmp_path):
         await user.press("escape")
 
 
+@pytest.mark.parametrize("typed", ["1=.25", ".25"])
+async def test_a_typed_diameter_is_compared_with_that_in_a_comment(tmp_path, typed: str):
+    async with at_proof(tmp_path, b"G20 F10\n(TOOL 1 END MILL DIAMETER 0.5000)\nT1 M6\nG1 X1 Y1\nX3\nM2\n") as user:
+        await with_tool(user, typed)
+        assert user.prompt == "Tool 1: diameter 0.25 IN. The comment in line 2 says diameter 0.5000."
+        assert user.proof.query_one("#prompt").has_class("-warning")
+        await with_tool(user, "12.7mm")
+        assert user.prompt == "Tool 1: diameter 0.5 IN."
+
+
 async def test_an_alarm_after_a_gouge_is_read_in_full_beside_the_tools(tmp_path):
     async with at_proof(tmp_path, PROGRAM.replace(b"M2\n", b"T9 M6\nM2\n")) as user:
         await with_tool(user, "1=.25")
@@ -681,3 +691,15 @@ async def test_an_alarm_after_a_gouge_is_read_in_full_beside_the_tools(tmp_path)
         assert user.outcome.startswith("gouges by 0.1250 at line 6, then alarms at line 7 (")
         outcome = user.proof.query_one("#proof-outcome", Static)
         assert len("gouges by 0.1250 at line 6, then alarms at line 7") <= outcome.content_region.width
+
+
+async def test_a_warning_that_a_diameter_brings_is_highlighted_before_the_information_on_its_line(tmp_path):
+    text = b"G21 F100.\nT1 M6\nG0 X-20. Y0.\nG41 D2 G1 X0. Y0.\nY40.\nX40.\nG40 X60.\nM2\n"
+    async with at_proof(tmp_path, text, CheckRequest("fanuc:a", {}, False, None)) as user:
+        await with_tool(user, "1=10")
+        await with_tool(user, "2=10")
+        await user.press("n")
+        findings = user.proof.query_one("#proof-findings", OptionList)
+        assert user.findings()[findings.highlighted or 0].startswith("i 4:")
+        await with_tool(user, "1=14")
+        assert user.findings()[findings.highlighted or 0].startswith("▲ 4: D2 has the radius 5.000, tool 1 has 7.000")
