@@ -26,7 +26,7 @@ LETTERS_TOGETHER: Final = 1.0
 
 @dataclass(slots=True)
 class TypedLetters:
-    """The letters typed one soon after the other; they name the next row that begins with them."""
+    """The letters typed one soon after the other; they name the next row with that name, or that begins with them."""
 
     letters: str = ""
     last: float = 0.0
@@ -44,8 +44,9 @@ class TypedLetters:
             return None
         self.last, self.unknown = event.time, ""
         for letters, step in ((together + letter, 0 if together else 1), (letter, 1)):
-            rows = ((here + step + more) % len(names) for more in range(len(names)))
-            row = next((row for row in rows if any(name.startswith(letters) for name in names[row])), None)
+            rows = [(here + step + more) % len(names) for more in range(len(names))]
+            begun = (row for row in rows if any(name.startswith(letters) for name in names[row]))
+            row = next((row for row in rows if letters in names[row]), next(begun, None))
             if row is not None:
                 self.letters = letters
                 return row

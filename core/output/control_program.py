@@ -18,7 +18,7 @@ from core.controls.write.written_program import Posted, Refusal, write_program
 from core.finding import Finding, Severity
 from core.output.ascii_text import in_ascii
 from core.output.grid import Grid
-from core.output.nc import comments, program_titles
+from core.output.nc import block_notes, comments, program_titles
 from core.output.objections import posting_errors
 from core.output.passes import Job, level_floor
 from core.program.model import Coolant
@@ -122,7 +122,7 @@ def _header(
     for job in jobs:
         depth = f"Z {length_text(job.z_start, unit)} TO {length_text(job.z_bottom, unit)}"
         yield f"BLOCK {job.block} MILL CONTOUR CUTTER COMP. {job.comp} {depth}"
-        yield from job.notes
+        yield from block_notes(job, unit)
     for note in (*_operator_notes(jobs, cuts, unit, control), *notes):
         places = [] if note.block is None or len(jobs) == 1 else [f"BLOCK {note.block}"]
         places += [] if note.segment is None else [f"SEGMENT {note.segment:g}"]

@@ -26,7 +26,7 @@ from core.output.grid import EXTRA_CENTER_DECIMALS, Grid, arc_parts, feed_text
 from core.output.objections import OVERRIDE_PHRASE, overridable_errors, posting_errors
 from core.output.passes import Cutter, Job, Pass, at_one_safe_z, clear_height, passes
 from core.program.model import Coolant
-from core.units import Unit, length_text, located_sentence
+from core.units import Unit, length_text, located_sentence, sentence
 
 COMMENT_WIDTH: Final = 72
 """Characters inside the parentheses; longer text continues in another comment."""
@@ -163,8 +163,16 @@ def _block_lines(job: Job, unit: Unit) -> Iterator[str]:
     together = len(title) + 1 + len(depth_text) <= COMMENT_WIDTH
     for line in (f"{title} {depth_text}",) if together else (title, depth_text):
         yield from comments(line)
-    for note in job.notes:
+    for note in block_notes(job, unit):
         yield from comments(note)
+
+
+def block_notes(job: Job, unit: Unit) -> Iterator[str]:
+    """Yield what the person who runs the file should know of a block: its notes, and its cuts into other blocks."""
+    yield from job.notes
+    for finding in job.findings:
+        if finding.code == "OTHER_BLOCK":
+            yield f"NOTE {finding.code} {sentence(finding, unit)}"
 
 
 def _raised_safe_z(safe: float, highest: Job, unit: Unit) -> Iterator[str]:

@@ -26,7 +26,7 @@ from core.pipeline import post
 from core.pipeline.derive import derive
 from core.pipeline.derived import Derived
 from core.pipeline.jobs import jobs
-from core.pipeline.post import post_control_program
+from core.pipeline.post import post_center_path, post_control_program
 from core.program.model import (
     ArcSegment,
     Block,
@@ -451,3 +451,19 @@ def test_leads_of_a_control_keep_clear_of_an_island(control: str, start: float, 
     assert note.block == 1
     assert "the contour of block 2" in note.text
     assert note.value == pytest.approx(max(depths))
+
+
+def test_a_posted_file_says_which_block_cuts_into_another() -> None:
+    """The island is 0.4 from the pocket's left wall and the cutter 0.5 across: each path cuts 0.1 into the other."""
+    pocket = block(((1, 0), (4, 0), (4, 3), (0, 3), (0, 0), (1, 0)), CutterComp.LEFT)
+    near = block(((0.4, 1), (0.4, 2), (2, 2), (2, 1), (0.4, 1)), CutterComp.LEFT)
+    derived = derive(program(pocket, near, parameters=BLENDS))
+    for posted in (
+        post_center_path(derived, name="part"),
+        post_control_program(derived, name="part", control="fanuc:a"),
+    ):
+        assert isinstance(posted, Posted), posted
+        text = " ".join(posted.text.replace("(", "").replace(")", "").split())
+        cut = "NOTE OTHER_BLOCK The path of segment 4 cuts 0.1000 into the contour of block 2 at X 0.4000 "
+        assert cut in text
+        assert text.count("NOTE OTHER_BLOCK") == 2
