@@ -18,7 +18,7 @@ from app.derivation_actions import DerivationActions
 from app.documents import paths, questions
 from app.documents.document import AnyDocument, ContourDocument, Document, NcDocument
 from app.documents.document_service import DocumentService, Notice, Offer, Opened, Trouble
-from app.documents.files import refuse_program, write_output
+from app.documents.files import refuse_program, why, write_output
 from app.documents.nc_text import NC_SUFFIXES
 from app.documents.questions import QuestionText
 from app.documents.settings import Settings, SettingsFile
@@ -399,7 +399,10 @@ class FileActions(DerivationActions):
             return self.disk.do(partial(written, made)), made
         except StoreError as error:
             self.say(error.text, Tone.ERROR)
-            return None
+        except OSError as error:
+            # for example, no file can have so long a name
+            self.say(f"{paths.short_path(path)} is not saved: {why(error)}", Tone.ERROR)
+        return None
 
     @work(group="question", description="close")
     async def close_nc(self, proof: ProofScreen) -> None:

@@ -315,6 +315,24 @@ async def test_home_opens_where_the_folder_of_the_open_file_is_gone(folder, monk
     service.stop()
 
 
+@pytest.mark.parametrize("action", ["app.save_as", "app.post", "app.sheet"])
+async def test_a_name_too_long_for_a_file_is_reported(folder, action):
+    async with at_work(folder) as user:
+        for name in ("n" * 300, f"../{'n' * 300}"):
+            await user.app.run_action(action)
+            await user.finish()
+            await user.settle()
+            user.screen.query_one("#entry", Input).value = name
+            await user.press("enter")
+            await user.finish()
+            if isinstance(user.screen, Question):
+                await user.press("w")
+                await user.finish()
+            assert "the name is too long" in user.prompt
+            await user.app.run_action("app.back")
+            await user.settle()
+
+
 @pytest.mark.parametrize("action", ["app.post", "app.sheet"])
 async def test_output_asks_before_another_folder_or_a_file_and_never_replaces_a_program(folder, action):
     (folder.parent / "x.txt").write_text("somebody's")
