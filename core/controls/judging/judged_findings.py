@@ -176,10 +176,10 @@ def _uneven_arc(arc: ToleratedArc | None) -> list[Finding]:
 def _mirrored_arcs(result: JudgedContour) -> Iterator[Finding]:
     """Warn of arcs that may run on the wrong side of their chord.
 
-    Where they are most arcs of a contour, its corners are probably meant so: then only the first one is noted.
+    Where several are most arcs of a contour, its corners are probably meant so: then only the first one is noted.
     """
     arcs, tangent = mirrored_arcs(result.surface)
-    doubtful = len(arcs) <= tangent
+    doubtful = len(arcs) == 1 or len(arcs) <= tangent
     for arc in arcs if doubtful else arcs[:1]:
         size = "longer" if arc.long else "shorter"
         direction = "counterclockwise" if arc.counterclockwise else "clockwise"
