@@ -27,6 +27,7 @@ from core.units import Kind
 
 BYTES: Final = {
     "tab": b"\t",
+    "shift+tab": b"\x1b[Z",
     "enter": b"\r",
     "up": b"\x1b[A",
     "down": b"\x1b[B",
@@ -206,7 +207,9 @@ class ContourPart(Part):
             return []
         self._take(session)
         self._edit(edited, f"{fields[index].label} of {'START' if on_start else f'segment {last}'}, block 1")
-        return ["ctrl+home" if on_start else "ctrl+end", *["tab"] * (index + 1), *text, "tab"]
+        begins_in_field = session.segment is not None and is_empty(session.segment)
+        tabs = index if begins_in_field else index + 1
+        return ["ctrl+home" if on_start else "ctrl+end", *["tab"] * tabs, *text, "tab"]
 
     def _at(self, segment: int) -> Session:
         """The cursor on another segment; a new one in which nothing was typed is gone then."""
@@ -233,11 +236,12 @@ class ContourPart(Part):
         if segment is None or not is_empty(segment):
             self._edit(insert_segment(program, FormPlace(1, last + 1), new[letter]()), f"new segment {last + 1}")
             self._take(self._at(last + 1))
-        else:
-            without = delete_segment(program, place)
-            assert not isinstance(without, Refused)
-            self._edit(insert_segment(without, place, new[letter]()), "another kind of segment")
-        return ["ctrl+end", letter]
+            return ["ctrl+end", letter]
+        without = delete_segment(program, place)
+        assert not isinstance(without, Refused)
+        self._edit(insert_segment(without, place, new[letter]()), "another kind of segment")
+        # an empty segment begins in its first field; SEGMENT is before it
+        return ["ctrl+end", "shift+tab", letter]
 
     def _delete(self) -> list[str]:
         last = len(self.session.block.segments)
