@@ -46,11 +46,11 @@ def post_control_program(derived: Derived, *, name: str, control: str) -> Posted
         return Refusal(errors, unit)
     cuts = [cut for block, job in zip(derived.blocks, all_jobs, strict=True) for cut in _cuts(block, job)]
 
-    def written(warnings: tuple[Finding, ...] = ()) -> Posted | Refusal:
+    def written(cuts: Sequence[PassToWrite], warnings: tuple[Finding, ...] = ()) -> Posted | Refusal:
         part = derived.program.setup.name
         return control_program(all_jobs, cuts, unit, name=name, control=control, part=part, warnings=warnings)
 
-    posted = written()
+    posted = written(cuts)
     if isinstance(posted, Refusal) or len(derived.blocks) < 2:
         return posted
     warnings = _cuts_by_leads(derived, all_jobs, cuts, posted, control)
@@ -58,17 +58,16 @@ def post_control_program(derived: Derived, *, name: str, control: str) -> Posted
     for longest in () if is_klartext(control) else LEAD_LENGTHS[1:]:
         if not warnings:
             return posted
-        cutting, kept = {warning.block for warning in warnings}, cuts
-        cuts = [
+        cutting = {warning.block for warning in warnings}
+        shorter = [
             replace(cut, longest_lead=longest) if isinstance(cut, CompensatedPass) and cut.block in cutting else cut
             for cut in cuts
         ]
-        shorter = written()
-        if isinstance(shorter, Refusal):
-            cuts = kept
+        trial = written(shorter)
+        if isinstance(trial, Refusal):
             break
-        posted, warnings = shorter, _cuts_by_leads(derived, all_jobs, cuts, shorter, control)
-    return written(warnings) if warnings else posted
+        cuts, posted, warnings = shorter, trial, _cuts_by_leads(derived, all_jobs, shorter, trial, control)
+    return written(cuts, warnings) if warnings else posted
 
 
 def _cuts_by_leads(
